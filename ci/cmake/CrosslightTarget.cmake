@@ -1,0 +1,29 @@
+# Flags that every target of the project shares, and rooms as static libraries.
+
+# Double rounding and contraction change bits: the host's twins of the shaders need plain IEEE arithmetic.
+set(CROSSLIGHT_FLAGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+if(CROSSLIGHT_WERROR)
+  list(APPEND CROSSLIGHT_FLAGS -Werror)
+endif()
+
+function(crosslight_flags target)
+  target_compile_options(${target} PRIVATE ${CROSSLIGHT_FLAGS})
+  if(CROSSLIGHT_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${CROSSLIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${CROSSLIGHT_SANITIZE})
+  endif()
+endfunction()
+
+# crosslight_room(NAME [USES room...] [LIBS library...]): all .cpp files of renderer/NAME as crosslight_NAME.
+function(crosslight_room name)
+  cmake_parse_arguments(ROOM "" "" "USES;LIBS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/renderer/${name}/*.cpp)
+  add_library(crosslight_${name} STATIC ${sources})
+  crosslight_flags(crosslight_${name})
+  target_include_directories(crosslight_${name} PUBLIC ${CMAKE_SOURCE_DIR}/renderer ${CMAKE_SOURCE_DIR}/shaders/shared)
+  foreach(used ${ROOM_USES})
+    target_link_libraries(crosslight_${name} PUBLIC crosslight_${used})
+  endforeach()
+  target_link_libraries(crosslight_${name} PUBLIC glm::glm ${ROOM_LIBS})
+  set_property(GLOBAL APPEND PROPERTY CROSSLIGHT_ROOMS crosslight_${name})
+endfunction()

@@ -1,0 +1,56 @@
+// Bounding volume hierarchy over triangles and bounded shapes, built on the host: binned surface-area heuristic, two
+// children per node. The node layout is the device's own (shaders/shared/structs.h).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "structs.h"
+
+namespace crosslight {
+
+struct Bounds {
+  glm::vec3 lower{1e38f};
+  glm::vec3 upper{-1e38f};
+
+  void add(const glm::vec3& p);
+  void add(const Bounds& other);
+  bool empty() const { return !(lower.x <= upper.x); }
+};
+
+struct BvhOptions {
+  std::uint32_t maxLeafSize = 4;  // at most 15
+  std::uint32_t binCount = 16;
+  std::uint32_t threads = 0;  // 0: as many as the machine has. The tree does not depend on it.
+};
+
+struct BvhStats {
+  std::uint32_t nodeCount = 0;
+  std::uint32_t leafCount = 0;
+  std::uint32_t maxDepth = 0;  // inner nodes on the longest path; below kBvhStackSize always
+  double sahCost = 0;          // expected cost of a ray: 1 per node visited, 1 per primitive tested
+  double buildMs = 0;
+  std::uint64_t sizeBytes = 0;
+};
+
+// `nodes[0]` is the root. With 0 primitives there is one node with two empty boxes; with 1, its second child is empty.
+// An empty child has lower > upper and a leaf of count 0. `order` lists primitive indices in leaf order.
+struct Bvh {
+  std::vector<shared::BvhNode> nodes;
+  std::vector<std::uint32_t> order;
+  Bounds bounds;
+  BvhStats stats;
+};
+
+// Deterministic: the same bounds give the same tree, whatever the number of threads. Boxes must be finite and not
+// empty (checked). The tree's boxes contain the given boxes exactly (no widening: the ray test widens).
+Bvh buildBvh(std::span<const Bounds> primitives, const BvhOptions& options = {});
+
+// Child reference of an inner node, taken apart.
+inline bool bvhIsLeaf(std::uint32_t child) { return (child & shared::kBvhLeaf) != 0; }
+inline std::uint32_t bvhLeafCount(std::uint32_t child) { return (child >> shared::kBvhCountShift) & 15u; }
+inline std::uint32_t bvhLeafFirst(std::uint32_t child) { return child & shared::kBvhFirstMask; }
+
+}  // namespace crosslight

@@ -1,0 +1,57 @@
+// From a scene and settings to an image and a record of everything that was measured on the way.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace crosslight {
+
+// One effect's verdict with its reason in words that name the object.
+struct EffectRecord {
+  std::string name;
+  bool on = false;
+  std::string reason;
+};
+
+struct RenderReport {
+  // Wall milliseconds by phase, in order: "bvh", "upload", "pipelines", "render" (submit to idle, all samples),
+  // "readback". Load, device and encode are the caller's.
+  std::vector<std::pair<std::string, double>> timesMs;
+  std::vector<std::pair<std::string, double>> gpuMs;  // by pass, from timestamps; empty where the device has none
+  std::vector<EffectRecord> effects;
+  std::map<std::string, std::uint64_t> rays;      // primary, shadow, reflection, refraction, passThrough
+  std::map<std::string, std::uint64_t> counters;  // triangles, draws, bvhNodes, pixels, samples, ...
+  std::uint64_t nonfinite = 0;                    // NaN or Inf samples seen by the film
+  std::uint64_t deviceBytes = 0;                  // peak
+  std::string promise;                            // light paths that the method computes, Heckbert's notation
+  std::string pixelFilter;                        // in words
+};
+
+struct RenderResult {
+  Image image;
+  RenderReport report;
+};
+
+// Called with (done, total) of whatever is counted; may be empty. Ctrl-C is looked for between submissions.
+using ProgressFunction = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
+// Throws DeviceError when the device lacks what the settings need (MSAA count, image size, memory: with figures),
+// InternalError on non-finite results unless allowed, Interrupted on Ctrl-C.
+RenderResult render(gpu::Device& device, const Scene& scene, const RenderSettings& settings,
+                    const ProgressFunction& progress = {});
+
+// Names as the command line has them, both ways; UsageError lists what there is.
+const char* nameOf(Method method);
+Method methodOf(const std::string& name);
+std::vector<Method> allMethods();
+
+}  // namespace crosslight

@@ -1,0 +1,82 @@
+// One batch of work for the device: record, submit, wait, read the times.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/pipeline.h"
+
+namespace crosslight::gpu {
+
+// What a rendering pass draws into. The whole image is the viewport. `resolve` takes the average of a multisampled color.
+struct RenderTargets {
+  const Image* color = nullptr;
+  const Image* resolve = nullptr;
+  const Image* depth = nullptr;
+  bool clearColor = true;
+  bool clearDepth = true;  // to 0: reversed Z
+  glm::vec4 clearValue{0.0f};
+};
+
+struct TimedSpan {
+  std::string name;
+  double gpuMs = 0;
+};
+
+struct CommandsImpl;
+class Commands {
+ public:
+  explicit Commands(const Device& device);
+  Commands(Commands&&) noexcept;
+  Commands& operator=(Commands&&) noexcept;
+  ~Commands();
+
+  void begin();  // forgets what was recorded before
+  void bind(const ComputePipeline& pipeline, const BindingSet& set);
+  void bind(const GraphicsPipeline& pipeline, const BindingSet& set);
+  void push(std::span<const std::byte> bytes);  // after bind; offset 0
+  template <class T>
+  void push(const T& value) {
+    push(std::as_bytes(std::span(&value, 1)));
+  }
+  void dispatch(std::uint32_t groupsX, std::uint32_t groupsY = 1, std::uint32_t groupsZ = 1);
+  void dispatchIndirect(const Buffer& arguments, std::uint64_t offset);
+
+  void beginRendering(const RenderTargets& targets);
+  void endRendering();
+  void bindVertexBuffer(std::uint32_t slot, const Buffer& buffer);
+  void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
+  enum class Cull { none, back };
+  void cull(Cull mode, bool clockwiseIsFront);
+  void drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
+                   std::uint32_t firstInstance);
+
+  void fill(const Buffer& buffer, std::uint64_t offset, std::uint64_t sizeBytes, std::uint32_t value);
+  void copy(const Buffer& from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t toOffset,
+            std::uint64_t sizeBytes);
+  void copyToBuffer(const Image& from, const Buffer& to);  // tightly packed rows; samples == 1
+
+  // All work recorded before is finished, and its writes visible, for all work recorded after (host reads included).
+  void barrier();
+
+  // Time from here to the matching end, on the device's clock. Spans may not nest. Without timestamps they measure nothing.
+  void beginSpan(std::string_view name);
+  void endSpan();
+
+  // Runs everything recorded. InternalError on device loss, on a wait beyond `timeoutSeconds` or a validation message.
+  void submitAndWait(double timeoutSeconds = 600.0);
+
+  // Of the last submit; spans of the same name are summed, in the order of first use.
+  const std::vector<TimedSpan>& spans() const;
+  double submitToIdleMs() const;
+
+ private:
+  std::unique_ptr<CommandsImpl> impl_;
+};
+
+}  // namespace crosslight::gpu

@@ -1,0 +1,85 @@
+// Vulkan devices: which there are, which can be used and why not, and the one that is open. No scene or lighting word
+// here; no Vulkan type leaves this room.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace crosslight::gpu {
+
+struct DeviceInfo {
+  std::uint32_t index = 0;
+  std::string name;
+  std::string type;           // "discrete", "integrated", "virtual", "cpu", "other"
+  std::string driverName;     // e.g. "llvmpipe"
+  std::string driverInfo;     // e.g. "Mesa 22.3.6 (LLVM 15.0.6)"
+  std::string apiVersion;     // "1.3.230"
+  bool isSoftware = false;
+  std::uint32_t subgroupSize = 0;
+  bool hasFloat64 = false;
+  float timestampPeriodNs = 0;  // 0: no timestamps
+  std::uint64_t maxStorageBufferBytes = 0;
+  std::uint64_t maxTexelBufferElements = 0;
+  std::uint32_t maxImageSize = 0;          // of a 2D color attachment
+  std::uint32_t maxWorkGroupCountX = 0;
+  std::uint64_t deviceLocalBytes = 0;
+  std::vector<std::uint32_t> msaaCounts;  // of RGBA32F color and D32F depth together, ascending, 1 included
+};
+
+struct DeviceReport {
+  DeviceInfo info;
+  std::vector<std::string> refusals;  // empty: usable. Each says what is missing.
+  bool usable() const { return refusals.empty(); }
+};
+
+struct DeviceOptions {
+  std::string selector;  // "", an index, "lavapipe", or part of a device's name (any case)
+  bool validation = false;  // the Khronos layer with synchronisation validation; its absence is a DeviceError
+  bool usePipelineCache = true;  // on disk, see pipelineCachePath()
+};
+
+// What open() cost.
+struct OpenTimes {
+  double instanceMs = 0;
+  double deviceMs = 0;
+};
+
+// Every Vulkan device with its verdict; empty when there is no driver at all.
+std::vector<DeviceReport> listDevices();
+
+// Where the pipeline cache of hardware drivers lies: $XDG_CACHE_HOME/crosslight (or ~/.cache/crosslight).
+std::filesystem::path pipelineCacheFolder();
+
+struct DeviceImpl;
+
+// An open device with one queue. Everything made from it must die before it.
+class Device {
+ public:
+  // Best usable device: discrete, integrated, virtual, then software; DeviceError lists all refusals. With
+  // CROSSLIGHT_VALIDATION=1 in the environment validation is on whatever the options say.
+  static Device open(const DeviceOptions& options = {});
+  Device(Device&&) noexcept;
+  Device& operator=(Device&&) noexcept;
+  ~Device();
+
+  const DeviceInfo& info() const;
+  const OpenTimes& openTimes() const;
+  bool validationOn() const;
+  // Validation messages so far. InternalError when there are any: every submit checks.
+  void throwOnValidationMessages() const;
+  // Writes the pipeline cache back (atomically, never fails the run). Called by the destructor too.
+  void savePipelineCache();
+  std::uint64_t allocatedBytes() const;      // now
+  std::uint64_t peakAllocatedBytes() const;  // most so far
+
+  DeviceImpl& impl() const { return *impl_; }
+
+ private:
+  explicit Device(std::unique_ptr<DeviceImpl> impl);
+  std::unique_ptr<DeviceImpl> impl_;
+};
+
+}  // namespace crosslight::gpu

@@ -1,0 +1,128 @@
+// Shader programs with their specialisation constants, and the bindings that they read.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/memory.h"
+
+namespace crosslight::gpu {
+
+// SPIR-V that was compiled into the program at build time, by file name ("phong.frag"). InternalError when unknown.
+struct ShaderCode {
+  std::string_view name;
+  std::span<const std::uint32_t> words;
+};
+ShaderCode embeddedShader(std::string_view fileName);
+std::span<const ShaderCode> embeddedShaders();
+
+// 32-bit specialisation constants: (constant id, bits). Ids that a shader does not have are ignored by Vulkan.
+struct Constant {
+  std::uint32_t id;
+  std::uint32_t bits;
+};
+using Constants = std::vector<Constant>;
+
+enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint };
+struct Binding {
+  std::uint32_t slot;
+  BindingType type;
+};
+
+struct BindingLayoutImpl;
+// Descriptor set 0 of a family of shaders, visible to all stages, and the size of its push constants (<= 128 bytes).
+class BindingLayout {
+ public:
+  BindingLayout() = default;
+  BindingLayout(const Device& device, std::vector<Binding> bindings, std::uint32_t pushConstantBytes);
+  BindingLayout(BindingLayout&&) noexcept;
+  BindingLayout& operator=(BindingLayout&&) noexcept;
+  ~BindingLayout();
+  BindingLayoutImpl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<BindingLayoutImpl> impl_;
+};
+
+struct BindingSetImpl;
+// Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must outlive it.
+class BindingSet {
+ public:
+  BindingSet() = default;
+  BindingSet(const Device& device, const BindingLayout& layout);
+  BindingSet(BindingSet&&) noexcept;
+  BindingSet& operator=(BindingSet&&) noexcept;
+  ~BindingSet();
+  void set(std::uint32_t slot, const Buffer& buffer);  // whole buffer; texel views are R32G32B32A32_SFLOAT or R32_UINT
+  BindingSetImpl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<BindingSetImpl> impl_;
+};
+
+struct PipelineImpl;
+class ComputePipeline {
+ public:
+  ComputePipeline() = default;
+  ComputePipeline(const Device& device, const BindingLayout& layout, ShaderCode code, const Constants& constants);
+  ComputePipeline(ComputePipeline&&) noexcept;
+  ComputePipeline& operator=(ComputePipeline&&) noexcept;
+  ~ComputePipeline();
+  explicit operator bool() const { return impl_ != nullptr; }
+  PipelineImpl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<PipelineImpl> impl_;
+};
+
+enum class VertexFormat { float1, float2, float3, float4, uint1 };
+struct VertexAttribute {
+  std::uint32_t location, buffer, offset;
+  VertexFormat format;
+};
+struct VertexBufferLayout {
+  std::uint32_t strideBytes;
+};
+
+enum class DepthTest { off, greater, greaterOrEqual, equal };  // reversed Z: nearer is greater
+enum class Blend { off, overPremultiplied };                   // src + (1 - src.a) * dst
+enum class PolygonMode { fill, line };
+
+struct GraphicsState {
+  ShaderCode vertex;
+  ShaderCode fragment;  // no words: depth only
+  Constants constants;  // both stages
+  std::vector<VertexBufferLayout> buffers;
+  std::vector<VertexAttribute> attributes;
+  bool colorTarget = true;  // one RGBA32F target, or none
+  bool depthTarget = true;  // D32F
+  std::uint32_t samples = 1;
+  DepthTest depthTest = DepthTest::greater;
+  bool depthWrite = true;
+  Blend blend = Blend::off;
+  PolygonMode polygonMode = PolygonMode::fill;
+  float depthBiasConstant = 0.0f;
+  float depthBiasSlope = 0.0f;
+};
+
+// Triangle lists; culling and front face are dynamic state (Commands::cull).
+class GraphicsPipeline {
+ public:
+  GraphicsPipeline() = default;
+  GraphicsPipeline(const Device& device, const BindingLayout& layout, const GraphicsState& state);
+  GraphicsPipeline(GraphicsPipeline&&) noexcept;
+  GraphicsPipeline& operator=(GraphicsPipeline&&) noexcept;
+  ~GraphicsPipeline();
+  explicit operator bool() const { return impl_ != nullptr; }
+  PipelineImpl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<PipelineImpl> impl_;
+};
+
+}  // namespace crosslight::gpu

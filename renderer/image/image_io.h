@@ -1,0 +1,40 @@
+// Images from and to files. The format follows the file's extension.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "image/image.h"
+
+namespace crosslight {
+
+enum class ToneMap { none, clamp, reinhard, neutral };
+
+// How linear radiance becomes a display picture (PNG); HDR, PFM and EXR stay linear and ignore all but `exposure`.
+struct DisplayTransform {
+  ToneMap toneMap = ToneMap::clamp;
+  float exposureStops = 0.0f;  // the picture is multiplied by 2^stops before tone mapping
+  bool withAlpha = false;      // PNG: write RGBA instead of RGB
+};
+
+// Formats that writeImage knows, from the extension: png, exr, hdr, pfm (any case). UsageError on others.
+enum class ImageFormat { png, exr, hdr, pfm };
+ImageFormat imageFormatOf(const std::filesystem::path& path);
+
+// Written whole or not at all. EXR carries every layer and the metadata; the others carry the picture only.
+void writeImage(const std::filesystem::path& path, const Image& image, const DisplayTransform& display = {});
+
+// Reads png (sRGB decoded to linear), exr (all layers), hdr, pfm. InputError names file and cause.
+Image readImage(const std::filesystem::path& path);
+
+// Linear to sRGB and back (IEC 61966-2-1), unclamped, per value.
+float srgbFromLinear(float linear);
+float linearFromSrgb(float srgb);
+
+// One pixel's display value in [0,1] for clamp, reinhard and neutral; `none` may exceed it and is clamped by the encoder.
+struct Rgb {
+  float r, g, b;
+};
+Rgb applyToneMap(Rgb linear, ToneMap toneMap);
+
+}  // namespace crosslight

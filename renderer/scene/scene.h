@@ -1,0 +1,213 @@
+// The scene as a value: what a glTF file means, before anything is known of a device. A snapshot: animation, skins and
+// morph targets are already applied. World transforms are double; vertex data is float as in the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lists.h"
+
+namespace crosslight {
+
+// Pixels as stored (not linearised), RGBA in [0,1], row 0 on top; 8- and 16-bit files alike.
+struct TextureImage {
+  std::string name;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<float> rgba;
+};
+
+enum class Wrap { repeat, mirroredRepeat, clampToEdge };
+enum class Filter { linear, nearest };
+
+// A material's use of an image.
+struct TextureUse {
+  int image = -1;  // index into Scene::images; -1: none
+  int texCoord = 0;  // 0 or 1
+  Wrap wrapU = Wrap::repeat;
+  Wrap wrapV = Wrap::repeat;
+  Filter filter = Filter::linear;  // magnification
+  // KHR_texture_transform, as in its specification: uv' = translation * rotation * scale * uv.
+  glm::vec2 offset{0.0f};
+  float rotation = 0.0f;  // radians, counter-clockwise
+  glm::vec2 scale{1.0f};
+
+  bool present() const { return image >= 0; }
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+// CROSSLIGHT_materials_classic: the lecture's material. No 1/pi anywhere.
+struct ClassicMaterial {
+  std::string preset;                // name in the classic table ("brass", ...), or empty
+  glm::vec3 ambientFactor{0.2f};     // ka
+  glm::vec3 diffuseFactor{0.8f};     // kd
+  glm::vec3 specularFactor{0.0f};    // ks
+  float shininess = 0.0f;            // n >= 0
+  float transparency = 0.0f;         // kt: 1 is fully transparent, I = (1 - kt) Irefl + kt Itrans
+  glm::vec3 reflectionFactor{0.0f};  // kr: weight of the mirror ray
+};
+
+struct Material {
+  std::string name;
+  IlluminationModel model = IlluminationModel::cookTorrance;
+  glm::vec4 baseColorFactor{1.0f};
+  float metallicFactor = 1.0f;
+  float perceptualRoughnessFactor = 1.0f;
+  glm::vec3 emissiveFactor{0.0f};
+  float emissiveStrength = 1.0f;
+  AlphaMode alphaMode = AlphaMode::opaque;
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;
+  TextureUse baseColorTexture;  // sRGB
+  TextureUse metallicRoughnessTexture;
+  TextureUse normalTexture;
+  TextureUse occlusionTexture;
+  TextureUse emissiveTexture;  // sRGB
+  float normalScale = 1.0f;
+  float occlusionStrength = 1.0f;
+  float indexOfRefraction = 1.5f;   // KHR_materials_ior; 0 means infinite F0
+  bool hasIor = false;              // the file states it
+  float transmissionFactor = 0.0f;  // KHR_materials_transmission (its texture is named in a warning)
+  bool hasVolume = false;           // KHR_materials_volume: the surface bounds a body; else it is thin
+  glm::vec3 attenuationColor{1.0f};
+  float attenuationDistance = std::numeric_limits<float>::infinity();
+  ClassicMaterial classic;  // for lambert, phong, blinnPhong
+};
+
+// Triangle list. Normals are never missing: where the file has none the vertices are split and the normals are the
+// triangles' own (flatNormals). Other attributes are empty, or as long as positions.
+struct Primitive {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec4> tangents;  // xyz, w = +1 or -1
+  std::vector<glm::vec2> uv0;
+  std::vector<glm::vec2> uv1;
+  std::vector<glm::vec4> colors;        // linear RGBA
+  std::vector<std::uint32_t> indices;   // 3 per triangle, each < positions.size()
+  int material = 0;                     // index into Scene::materials (a default one is appended when needed)
+  bool flatNormals = false;
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+// A node that draws a mesh. Skinned and morphed nodes have a posed mesh of their own. A node with EXT_mesh_gpu_instancing
+// is one instance per element.
+struct MeshInstance {
+  std::string name;
+  int mesh = 0;
+  glm::dmat4 worldFromObject{1.0};
+  std::uint32_t instanceId = 0;
+  bool replacedByShape = false;  // the node also has an analytic shape: rays see that one, raster this mesh
+};
+
+// CROSSLIGHT_node_shape: an analytic shape, object space as in CL_SHAPE_KINDS. Params as in ShapeRecord.
+struct ShapeInstance {
+  std::string name;
+  ShapeKind kind = ShapeKind::sphere;
+  glm::vec4 params{1.0f, 0.0f, 0.0f, 0.0f};
+  int material = 0;
+  glm::dmat4 worldFromObject{1.0};
+  std::uint32_t instanceId = 0;  // shared with the MeshInstance that it replaces
+};
+
+// CROSSLIGHT_lights_classic: OpenGL's fixed-function light.
+struct ClassicLight {
+  glm::vec3 ambient{0.0f};
+  glm::vec3 diffuse{1.0f};
+  glm::vec3 specular{1.0f};
+  glm::vec3 attenuation{1.0f, 0.0f, 0.0f};  // kc, kl, kq; (0,0,0) means no attenuation
+  float spotExponent = 0.0f;                // 0..128
+  float spotCutoff = 180.0f;                // degrees: [0,90], or 180 for no cone
+};
+
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  glm::vec3 color{1.0f};           // linear
+  float intensity = 1.0f;          // candela (point, spot) or lux (directional)
+  std::optional<float> range;      // scene units
+  float innerConeAngle = 0.0f;     // radians, half angle
+  float outerConeAngle = 0.7853982f;
+  std::optional<ClassicLight> classic;  // replaces color, intensity, range and the cones
+  glm::dvec3 worldPosition{0.0};
+  glm::dvec3 worldDirection{0.0, 0.0, -1.0};  // unit, the way the light travels
+};
+
+struct Camera {
+  std::string name;
+  bool orthographic = false;
+  double yFov = 0.7853981633974483;     // radians, perspective
+  std::optional<double> aspectRatio;    // width / height as the file has it; the output's resolution decides
+  double xMag = 1.0, yMag = 1.0;        // half extents, orthographic
+  double zNear = 0.1;
+  std::optional<double> zFar;           // none: infinite (perspective only)
+  glm::dmat4 worldFromCamera{1.0};      // rigid: looks along -Z, up +Y
+};
+
+enum class FogMode { none, linear, exp, exp2 };
+
+// CROSSLIGHT_scene_atmosphere
+struct Atmosphere {
+  glm::vec3 ambient{0.0f};     // Ia
+  glm::vec3 background{0.0f};  // linear
+  FogMode fogMode = FogMode::none;
+  glm::vec3 fogColor{0.5f};
+  double fogStart = 0.0, fogEnd = 1.0, fogDensity = 1.0;
+};
+
+struct DBounds {
+  glm::dvec3 lower{std::numeric_limits<double>::infinity()};
+  glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(lower.x <= upper.x); }
+  void add(const glm::dvec3& p) {
+    for (int i = 0; i < 3; ++i) {
+      if (p[i] < lower[i]) lower[i] = p[i];
+      if (p[i] > upper[i]) upper[i] = p[i];
+    }
+  }
+};
+
+// What the file holds, for `info` and JSON records.
+struct SceneStats {
+  std::uint64_t fileBytes = 0;  // the file and everything it refers to
+  std::uint64_t triangles = 0;  // instances counted each
+  std::uint64_t vertices = 0;
+  std::uint32_t nodes = 0;
+  std::uint32_t animations = 0;
+  std::vector<std::string> extensionsUsed;
+  std::vector<std::string> sceneNames;  // of all scenes in the file
+};
+
+struct Scene {
+  std::filesystem::path source;
+  std::string name;
+  std::vector<TextureImage> images;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<MeshInstance> instances;
+  std::vector<ShapeInstance> shapes;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;  // at least one after loading: the scene's bounds are framed when the file has none
+  Atmosphere atmosphere;
+  std::uint32_t instanceCount = 0;  // ids run from 0 to instanceCount - 1
+  DBounds worldBounds;              // of everything bounded
+  bool defaultLight = false;        // the file has no light: lights[0] is the headlight of the default camera
+  bool defaultCamera = false;
+  SceneStats stats;
+};
+
+}  // namespace crosslight
