@@ -53,13 +53,15 @@ class Commands {
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   enum class Cull { none, back };
   void cull(Cull mode, bool clockwiseIsFront);
+  void scissorRows(std::uint32_t firstRow, std::uint32_t rowCount);  // after beginRendering; the default is the whole image
   void drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
                    std::uint32_t firstInstance);
 
   void fill(const Buffer& buffer, std::uint64_t offset, std::uint64_t sizeBytes, std::uint32_t value);
   void copy(const Buffer& from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t toOffset,
             std::uint64_t sizeBytes);
-  void copyToBuffer(const Image& from, const Buffer& to);  // tightly packed rows; samples == 1
+  // Rows [firstRow, firstRow + rowCount), tightly packed, to offset 0; samples == 1.
+  void copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint32_t rowCount, const Buffer& to);
 
   // All work recorded before is finished, and its writes visible, for all work recorded after (host reads included).
   void barrier();
