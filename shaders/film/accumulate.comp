@@ -1,0 +1,44 @@
+#version 460
+// Adds one sample of every pixel to the film, compensated, and counts what is not finite.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/structs.h"
+#include "shared/bindings.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform PushBlock { FilmPush pushed; };
+layout(set = 0, binding = kBindSampleColor, scalar) readonly buffer SampleBlock { vec4 samples[]; };
+layout(set = 0, binding = kBindFilm, scalar) buffer FilmBlock { FilmPixel film[]; };
+layout(set = 0, binding = kBindFilmParts, scalar) buffer PartsBlock { FilmParts parts[]; };
+layout(set = 0, binding = kBindAovs, scalar) readonly buffer AovBlock { AovRecord aovs[]; };
+layout(set = 0, binding = kBindCounters, scalar) buffer CounterBlock { uint counters[]; };
+
+void addParts(uint pixel) {
+  AovRecord aov = aovs[pixel];
+  FilmParts p = FilmParts(aov.albedo, aov.ambient, aov.diffuse, aov.specular, aov.emission);
+  if (pushed.firstSample == 0u) {
+    FilmParts old = parts[pixel];
+    p = FilmParts(old.albedo + p.albedo, old.ambient + p.ambient, old.diffuse + p.diffuse, old.specular + p.specular,
+                  old.emission + p.emission);
+  }
+  parts[pixel] = p;
+}
+
+void main() {
+  uint pixel = gl_GlobalInvocationID.x;
+  if (pixel >= pushed.pixelCount) return;
+  vec4 value = samples[pixel];
+  if (any(isnan(value)) || any(isinf(value))) {
+    atomicAdd(counters[kCounterNonfinite], 1u);
+    atomicMax(counters[kCounterFirstNonfinite], 0xffffffffu - (pushed.firstPixel + pixel));
+  }
+  // Kahan 1965, "Pracniques: Further Remarks on Reducing Truncation Errors".
+  FilmPixel old = film[pixel];
+  vec4 sum = pushed.firstSample != 0u ? vec4(0.0) : old.sum;
+  vec4 carried = pushed.firstSample != 0u ? vec4(0.0) : old.compensation;
+  precise vec4 y = value - carried;
+  precise vec4 t = sum + y;
+  precise vec4 c = (t - sum) - y;
+  film[pixel] = FilmPixel(t, c);
+  if (pushed.withParts != 0u) addParts(pixel);
+}

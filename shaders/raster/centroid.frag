@@ -1,0 +1,5 @@
+#version 460
+// Flat shading at the triangle's centroid, with the triangle's own normal.
+#extension GL_GOOGLE_include_directive : require
+#define CL_CENTROID
+#include "raster/fragment.glsl"

@@ -1,0 +1,95 @@
+// Fragment stage of every raster method: finds the surface, takes or computes its lighting, and either colors the
+// pixel or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
+#extension GL_GOOGLE_include_directive : require
+#include "shared/scene_bindings.glsl"
+#include "shade/shade.glsl"
+#include "shade/triangle.glsl"
+#define CL_STAGE in
+#include "raster/varyings.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { RasterPush pushed; };
+
+#ifdef CL_AOV
+layout(early_fragment_tests) in;
+layout(set = 0, binding = kBindAovs, scalar) writeonly buffer AovBlock { AovRecord aovs[]; };
+#else
+layout(location = 0) out vec4 outColor;  // premultiplied
+#endif
+
+float lightVisibility(uint lightIndex) { return 1.0; }
+
+SurfaceInput surfaceInput() {
+  SurfaceInput at;
+  at.renderPos = renderPos;
+  at.normal = renderNormal;
+  at.tangent = renderTangent;
+  at.uv0 = uvs.xy;
+  at.uv1 = uvs.zw;
+  at.color = vertexColor;
+  at.materialId = draws[drawId].materialId;
+  at.frontFacing = gl_FrontFacing;
+#if defined(CL_AOV) || defined(CL_CENTROID)
+  TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
+  at.geometricNormal = triangleNormal(c.v0, c.v1, c.v2, (draws[drawId].flags & kDrawFlipsWinding) != 0u);
+#else
+  // Only the fallback where the interpolated normal vanishes: the screen-space derivative is good enough for that.
+  vec3 facing = safeNormalize(cross(dFdx(renderPos), dFdy(renderPos)), vec3(0.0, 0.0, 1.0));
+  bool away = dot(facing, viewDirection(renderPos)) < 0.0;
+  at.geometricNormal = away == gl_FrontFacing ? -facing : facing;
+#endif
+  return at;
+}
+
+LightSums lighting(SurfacePoint s) {
+#ifdef CL_SUMS_MODE
+  bool front = gl_FrontFacing || !CL_HAS(twoSided);
+  return LightSums(front ? frontAmbient : backAmbient, front ? frontDiffuse : backDiffuse,
+                   front ? frontSpecular : backSpecular, front ? frontFresnel : backFresnel);
+#else
+#ifdef CL_CENTROID
+  TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
+  s.position = (c.v0 + c.v1 + c.v2) / 3.0;
+  s.n = s.ng;
+#endif
+  return illuminate(s, viewDirection(s.position), 0u, frame.lightCount);
+#endif
+}
+
+#ifdef CL_AOV
+void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
+  uint pixel = uint(gl_FragCoord.y) * frame.resolution.x + uint(gl_FragCoord.x) - pushed.firstPixel;
+  DrawRecord draw = draws[drawId];
+  AovRecord aov;
+  aov.depth = dot(s.position, frame.cameraForward);
+  aov.position = s.position;
+  aov.normal = s.n;
+  aov.geometricNormal = s.ng;
+  aov.albedo = s.albedo;
+  aov.uv = at.uv0;
+  aov.instanceId = draw.instanceId;
+  aov.primitiveId = draw.primitiveBase + pushed.firstTriangle + uint(gl_PrimitiveID) - draw.firstTriangle;
+  aov.materialId = draw.materialId;
+  aov.ambient = parts.ambient;
+  aov.diffuse = parts.diffuse;
+  aov.specular = parts.specular;
+  aov.emission = parts.emission;
+  aovs[pixel] = aov;
+}
+#endif
+
+void main() {
+  SurfaceInput at = surfaceInput();
+  if (CL_HAS(alphaMask)) {
+    MaterialRecord m = materials[at.materialId];
+    if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.color.a))) discard;
+  }
+  SurfacePoint s = surfaceAt(at);
+  ShadedParts parts = compose(s, lighting(s), frame.ambient);
+#ifdef CL_AOV
+  record(at, s, parts);
+#else
+  float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
+  float through = CL_HAS(transparency) ? maxComponent(s.transmissionColor) * float(s.model == kModel_cookTorrance) : 0.0;
+  outColor = vec4(sumOf(parts) * opacity, opacity * (1.0 - through));
+#endif
+}

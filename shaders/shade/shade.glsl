@@ -1,0 +1,58 @@
+// Illumination at one point: lights times model. Raster and rays call these same functions; whoever includes this
+// defines lightVisibility() (1 in raster without shadows, the shadow rays' answer in the ray tracer).
+#ifndef CROSSLIGHT_SHADE_GLSL
+#define CROSSLIGHT_SHADE_GLSL
+#include "material/surface.glsl"
+#include "light/light.glsl"
+#include "illum/illumination.glsl"
+
+float lightVisibility(uint lightIndex);
+
+// What all lights of a batch bring to a point, before the surface's colors.
+struct LightSums {
+  vec3 ambient;   // the lights' own ambient intensities, attenuated
+  vec3 diffuse;
+  vec3 specular;
+  vec3 fresnel;
+};
+
+struct ShadedParts {
+  vec3 ambient;
+  vec3 diffuse;
+  vec3 specular;
+  vec3 emission;
+};
+
+LightSums illuminate(SurfacePoint s, vec3 wo, uint firstLight, uint lightCount) {
+  LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+  for (uint i = 0u; i < lightCount; ++i) {
+    LightRecord light = lights[firstLight + i];
+    LightSample at = sampleLight(light, s.position);
+    float visible = lightVisibility(i) * at.falloff;
+    Lobe lobe = evaluateModel(s, wo, at.wi);
+    sums.ambient += light.ambient * at.falloff;
+    sums.diffuse += light.diffuse * (visible * lobe.diffuse);
+    sums.specular += light.specular * (visible * lobe.specular);
+    sums.fresnel += light.specular * (visible * lobe.fresnel);
+  }
+  return sums;
+}
+
+ShadedParts compose(SurfacePoint s, LightSums sums, vec3 sceneAmbient) {
+  ShadedParts parts;
+  parts.ambient = s.ambientColor * (sceneAmbient + sums.ambient);
+  parts.diffuse = s.diffuseColor * sums.diffuse;
+  parts.specular = s.specularColor * sums.specular + sums.fresnel;
+  parts.emission = s.emission;
+  return parts;
+}
+
+vec3 sumOf(ShadedParts parts) { return parts.ambient + parts.diffuse + parts.specular + parts.emission; }
+
+// Unit vector towards the viewer: the camera stands at the render space's origin. OpenGL's infinite viewer looks from
+// the same side at every point; an orthographic camera does anyway.
+vec3 viewDirection(vec3 renderPos) {
+  bool fixedViewer = frame.infiniteViewer != 0u || frame.orthographic != 0u;
+  return fixedViewer ? -frame.cameraForward : safeNormalize(-renderPos, -frame.cameraForward);
+}
+#endif

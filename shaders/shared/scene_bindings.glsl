@@ -1,0 +1,34 @@
+// The GLSL side of bindings.h: declarations only. An entry point includes this once.
+#ifndef CROSSLIGHT_SCENE_BINDINGS_GLSL
+#define CROSSLIGHT_SCENE_BINDINGS_GLSL
+#extension GL_EXT_scalar_block_layout : require
+#include "structs.h"
+#include "lists.h"
+#include "bindings.h"
+
+layout(constant_id = kSpecModels) const uint specModels = 0xffffffffu;
+layout(constant_id = kSpecLights) const uint specLights = 0xffffffffu;
+layout(constant_id = kSpecShapes) const uint specShapes = 0xffffffffu;
+layout(constant_id = kSpecEffects) const uint specEffects = 0xffffffffu;
+layout(constant_id = kSpecVariant) const uint specVariant = 0u;
+
+#define CL_EFFECT_ROW(bit, name) const uint kEffect_##name = 1u << bit;
+CL_EFFECTS(CL_EFFECT_ROW)
+#undef CL_EFFECT_ROW
+#define CL_MODEL_ROW(value, name, Stem, text) const uint kModel_##name = uint(value);
+CL_ILLUMINATION_MODELS(CL_MODEL_ROW)
+#undef CL_MODEL_ROW
+#define CL_HAS(name) ((specEffects & kEffect_##name) != 0u)
+
+layout(set = 0, binding = kBindFrame, scalar) uniform FrameBlock { FrameRecord frame; };
+layout(set = 0, binding = kBindMaterials, scalar) readonly buffer MaterialBlock { MaterialRecord materials[]; };
+layout(set = 0, binding = kBindLights, scalar) readonly buffer LightBlock { LightRecord lights[]; };
+layout(set = 0, binding = kBindDraws, scalar) readonly buffer DrawBlock { DrawRecord draws[]; };
+layout(set = 0, binding = kBindPositions, scalar) readonly buffer PositionBlock { vec3 positions[]; };
+layout(set = 0, binding = kBindAttributes, scalar) readonly buffer AttributeBlock { VertexAttributes attributes[]; };
+layout(set = 0, binding = kBindIndices, scalar) readonly buffer IndexBlock { uint indices[]; };
+layout(set = 0, binding = kBindShapes, scalar) readonly buffer ShapeBlock { ShapeRecord shapes[]; };
+layout(set = 0, binding = kBindTexels) uniform samplerBuffer texels;
+layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
+layout(set = 0, binding = kBindBvhPrimitives) uniform usamplerBuffer bvhPrimitives;
+#endif
