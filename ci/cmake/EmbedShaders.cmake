@@ -7,16 +7,20 @@ foreach(file ${FILES})
   file(READ ${file} hex HEX)
   string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
   string(APPEND arrays "constexpr std::uint32_t k_${identifier}[] = {${words}};\n")
-  string(APPEND table "    {\"${name}\", k_${identifier}},\n")
+  string(APPEND table "    ShaderCode{\"${name}\", k_${identifier}},\n")
 endforeach()
+list(LENGTH FILES count)
+# std::array, because an array of no elements is ill-formed.
 file(WRITE ${OUTPUT}.new
 "// Made by ci/cmake/EmbedShaders.cmake.
+#include <array>
+
 #include \"gpu/pipeline.h\"
 
 namespace crosslight::gpu {
 namespace {
 ${arrays}
-constexpr ShaderCode kShaders[] = {
+constexpr std::array<ShaderCode, ${count}> kShaders{
 ${table}};
 }  // namespace
 std::span<const ShaderCode> embeddedShaders() { return kShaders; }
