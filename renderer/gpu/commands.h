@@ -13,7 +13,8 @@
 
 namespace crosslight::gpu {
 
-// What a rendering pass draws into. The whole image is the viewport. `resolve` takes the average of a multisampled color.
+// What a rendering pass draws into. The whole image is the viewport. `resolve` takes the average of a multisampled
+// color.
 struct RenderTargets {
   const Image* color = nullptr;
   const Image* resolve = nullptr;
@@ -32,9 +33,6 @@ struct CommandsImpl;
 class Commands {
  public:
   explicit Commands(const Device& device);
-  Commands(Commands&&) noexcept;
-  Commands& operator=(Commands&&) noexcept;
-  ~Commands();
 
   void begin();  // forgets what was recorded before
   void bind(const ComputePipeline& pipeline, const BindingSet& set);
@@ -53,7 +51,8 @@ class Commands {
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   enum class Cull { none, back };
   void cull(Cull mode, bool clockwiseIsFront);
-  void scissorRows(std::uint32_t firstRow, std::uint32_t rowCount);  // after beginRendering; the default is the whole image
+  // Draws only into these rows; after beginRendering, which sets the whole image.
+  void scissorRows(std::uint32_t firstRow, std::uint32_t rowCount);
   void drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
                    std::uint32_t firstInstance);
 
@@ -66,7 +65,8 @@ class Commands {
   // All work recorded before is finished, and its writes visible, for all work recorded after (host reads included).
   void barrier();
 
-  // Time from here to the matching end, on the device's clock. Spans may not nest. Without timestamps they measure nothing.
+  // Time from here to the matching end, on the device's clock. Spans may not nest. Without timestamps they measure
+  // nothing.
   void beginSpan(std::string_view name);
   void endSpan();
 
@@ -78,7 +78,7 @@ class Commands {
   double submitToIdleMs() const;
 
  private:
-  std::unique_ptr<CommandsImpl> impl_;
+  Owned<CommandsImpl> impl_;
 };
 
 }  // namespace crosslight::gpu

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace crosslight::gpu {
@@ -13,17 +14,17 @@ namespace crosslight::gpu {
 struct DeviceInfo {
   std::uint32_t index = 0;
   std::string name;
-  std::string type;           // "discrete", "integrated", "virtual", "cpu", "other"
-  std::string driverName;     // e.g. "llvmpipe"
-  std::string driverInfo;     // e.g. "Mesa 22.3.6 (LLVM 15.0.6)"
-  std::string apiVersion;     // "1.3.230"
+  std::string type;        // "discrete", "integrated", "virtual", "cpu", "other"
+  std::string driverName;  // e.g. "llvmpipe"
+  std::string driverInfo;  // e.g. "Mesa 22.3.6 (LLVM 15.0.6)"
+  std::string apiVersion;  // "1.3.230"
   bool isSoftware = false;
   std::uint32_t subgroupSize = 0;
   bool hasFloat64 = false;
   float timestampPeriodNs = 0;  // 0: no timestamps
   std::uint64_t maxStorageBufferBytes = 0;
   std::uint64_t maxTexelBufferElements = 0;
-  std::uint32_t maxImageSize = 0;          // of a 2D color attachment
+  std::uint32_t maxImageSize = 0;  // of a 2D color attachment
   std::uint32_t maxWorkGroupCountX = 0;
   std::uint64_t deviceLocalBytes = 0;
   std::vector<std::uint32_t> msaaCounts;  // of RGBA32F color and D32F depth together, ascending, 1 included
@@ -36,9 +37,10 @@ struct DeviceReport {
 };
 
 struct DeviceOptions {
-  std::string selector;  // "", an index, "lavapipe", or part of a device's name (any case)
-  bool validation = false;  // the Khronos layer with synchronisation validation; its absence is a DeviceError
-  bool usePipelineCache = true;  // on disk, see pipelineCachePath()
+  std::string selector;          // "", an index, "lavapipe", or part of a device's name (any case)
+  bool validation = false;       // the Khronos layer with synchronization validation; its absence is a DeviceError
+  bool usePipelineCache = true;  // on disk, see pipelineCacheFolder()
+  bool neverMap = false;         // every upload through a staging copy, as on a device with private memory (for tests)
 };
 
 // What open() cost.
@@ -53,7 +55,21 @@ std::vector<DeviceReport> listDevices();
 // Where the pipeline cache of hardware drivers lies: $XDG_CACHE_HOME/crosslight (or ~/.cache/crosslight).
 std::filesystem::path pipelineCacheFolder();
 
+// Validation messages that came too late to be thrown (while a device closed). They are logged as errors; a program
+// that finds this above 0 at its end has failed.
+std::uint64_t lateValidationMessages();
+
+// Destroys what a handle owns; after a wait that timed out it is left alone, since the device may still use it.
+template <class Impl>
+struct Release {
+  void operator()(Impl* impl) const noexcept;
+};
+template <class Impl>
+using Owned = std::unique_ptr<Impl, Release<Impl>>;
+
 struct DeviceImpl;
+template <>
+void Release<DeviceImpl>::operator()(DeviceImpl* impl) const noexcept;
 
 // An open device with one queue. Everything made from it must die before it.
 class Device {
@@ -61,9 +77,6 @@ class Device {
   // Best usable device: discrete, integrated, virtual, then software; DeviceError lists all refusals. With
   // CROSSLIGHT_VALIDATION=1 in the environment validation is on whatever the options say.
   static Device open(const DeviceOptions& options = {});
-  Device(Device&&) noexcept;
-  Device& operator=(Device&&) noexcept;
-  ~Device();
 
   const DeviceInfo& info() const;
   const OpenTimes& openTimes() const;
@@ -78,8 +91,8 @@ class Device {
   DeviceImpl& impl() const { return *impl_; }
 
  private:
-  explicit Device(std::unique_ptr<DeviceImpl> impl);
-  std::unique_ptr<DeviceImpl> impl_;
+  explicit Device(Owned<DeviceImpl> impl) : impl_(std::move(impl)) {}
+  Owned<DeviceImpl> impl_;
 };
 
 }  // namespace crosslight::gpu

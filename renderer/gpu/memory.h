@@ -20,7 +20,7 @@ enum BufferUse : std::uint32_t {
   useVertex = 8,
   useIndex = 16,
   useIndirect = 32,
-  useReadback = 64,  // host-visible and cached: read() is fast
+  useReadback = 64,    // host-visible and cached: read() is fast
   useHostWrite = 128,  // host-visible: write() needs no staging copy; for small, often changed data
 };
 
@@ -36,12 +36,9 @@ class Buffer {
   static Buffer of(const Device& device, std::string name, const std::vector<T>& items, std::uint32_t use) {
     return Buffer(device, std::move(name), std::as_bytes(std::span(items)), use);
   }
-  Buffer(Buffer&&) noexcept;
-  Buffer& operator=(Buffer&&) noexcept;
-  ~Buffer();
 
   explicit operator bool() const { return impl_ != nullptr; }
-  std::uint64_t sizeBytes() const;
+  std::uint64_t sizeBytes() const;  // as asked for: 0 stays 0
   // Host access; blocking; only outside of recorded, unfinished work.
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
@@ -55,7 +52,7 @@ class Buffer {
   BufferImpl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<BufferImpl> impl_;
+  Owned<BufferImpl> impl_;
 };
 
 enum class ImageFormat { rgba32f, depth32f };
@@ -67,9 +64,6 @@ class Image {
   Image() = default;
   Image(const Device& device, std::string name, ImageFormat format, std::uint32_t width, std::uint32_t height,
         std::uint32_t samples = 1);
-  Image(Image&&) noexcept;
-  Image& operator=(Image&&) noexcept;
-  ~Image();
 
   explicit operator bool() const { return impl_ != nullptr; }
   std::uint32_t width() const;
@@ -79,7 +73,7 @@ class Image {
   ImageImpl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<ImageImpl> impl_;
+  Owned<ImageImpl> impl_;
 };
 
 }  // namespace crosslight::gpu

@@ -1,4 +1,4 @@
-// Shader programs with their specialisation constants, and the bindings that they read.
+// Shader programs with their specialization constants, and the bindings that they read.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct ShaderCode {
 ShaderCode embeddedShader(std::string_view fileName);
 std::span<const ShaderCode> embeddedShaders();
 
-// 32-bit specialisation constants: (constant id, bits). Ids that a shader does not have are ignored by Vulkan.
+// 32-bit specialization constants: (constant id, bits). Ids that a shader does not have are ignored by Vulkan.
 struct Constant {
   std::uint32_t id;
   std::uint32_t bits;
 };
 using Constants = std::vector<Constant>;
 
-enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint };
+enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint4 };
 struct Binding {
   std::uint32_t slot;
   BindingType type;
@@ -40,29 +40,26 @@ class BindingLayout {
  public:
   BindingLayout() = default;
   BindingLayout(const Device& device, std::vector<Binding> bindings, std::uint32_t pushConstantBytes);
-  BindingLayout(BindingLayout&&) noexcept;
-  BindingLayout& operator=(BindingLayout&&) noexcept;
-  ~BindingLayout();
   BindingLayoutImpl& impl() const { return *impl_; }
+  const std::shared_ptr<BindingLayoutImpl>& shared() const { return impl_; }
 
  private:
-  std::unique_ptr<BindingLayoutImpl> impl_;
+  std::shared_ptr<BindingLayoutImpl> impl_;  // sets and pipelines keep it alive
 };
 
 struct BindingSetImpl;
-// Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must outlive it.
+// Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must outlive
+// it.
 class BindingSet {
  public:
   BindingSet() = default;
   BindingSet(const Device& device, const BindingLayout& layout);
-  BindingSet(BindingSet&&) noexcept;
-  BindingSet& operator=(BindingSet&&) noexcept;
-  ~BindingSet();
-  void set(std::uint32_t slot, const Buffer& buffer);  // whole buffer; texel views are R32G32B32A32_SFLOAT or R32_UINT
+  void set(std::uint32_t slot,
+           const Buffer& buffer);  // whole buffer; texel views are R32G32B32A32_SFLOAT or R32G32B32A32_UINT
   BindingSetImpl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<BindingSetImpl> impl_;
+  Owned<BindingSetImpl> impl_;
 };
 
 struct PipelineImpl;
@@ -70,14 +67,11 @@ class ComputePipeline {
  public:
   ComputePipeline() = default;
   ComputePipeline(const Device& device, const BindingLayout& layout, ShaderCode code, const Constants& constants);
-  ComputePipeline(ComputePipeline&&) noexcept;
-  ComputePipeline& operator=(ComputePipeline&&) noexcept;
-  ~ComputePipeline();
   explicit operator bool() const { return impl_ != nullptr; }
   PipelineImpl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<PipelineImpl> impl_;
+  Owned<PipelineImpl> impl_;
 };
 
 enum class VertexFormat { float1, float2, float3, float4, uint1 };
@@ -115,14 +109,11 @@ class GraphicsPipeline {
  public:
   GraphicsPipeline() = default;
   GraphicsPipeline(const Device& device, const BindingLayout& layout, const GraphicsState& state);
-  GraphicsPipeline(GraphicsPipeline&&) noexcept;
-  GraphicsPipeline& operator=(GraphicsPipeline&&) noexcept;
-  ~GraphicsPipeline();
   explicit operator bool() const { return impl_ != nullptr; }
   PipelineImpl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<PipelineImpl> impl_;
+  Owned<PipelineImpl> impl_;
 };
 
 }  // namespace crosslight::gpu

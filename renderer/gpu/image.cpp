@@ -1,0 +1,93 @@
+// Render targets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "gpu/impl.h"
+
+namespace crosslight::gpu {
+namespace {
+
+vk::ImageUsageFlags usageOf(ImageFormat format) {
+  using Usage = vk::ImageUsageFlagBits;
+  if (format == ImageFormat::depth32f) return Usage::eDepthStencilAttachment;
+  return Usage::eColorAttachment | Usage::eTransferSrc;
+}
+
+vk::ImageAspectFlags aspectOf(ImageFormat format) {
+  return format == ImageFormat::depth32f ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
+void checkExtent(const DeviceImpl& device, const std::string& what, std::uint32_t width, std::uint32_t height) {
+  CL_CHECK_LT(0u, width);
+  CL_CHECK_LT(0u, height);
+  if (std::max(width, height) <= device.info.maxImageSize) return;
+  throw DeviceError(fmt::format("{} is {} x {} pixels, the limit of {} is {} x {}; render it in parts or smaller", what,
+                                width, height, device.info.name, device.info.maxImageSize, device.info.maxImageSize));
+}
+
+vk::ImageCreateInfo imageInfo(const ImageImpl& image) {
+  return vk::ImageCreateInfo()
+      .setImageType(vk::ImageType::e2D)
+      .setFormat(formatOf(image.format))
+      .setExtent(vk::Extent3D(image.extent, 1))
+      .setMipLevels(1)
+      .setArrayLayers(1)
+      .setSamples(sampleFlag(image.samples))
+      .setUsage(usageOf(image.format));
+}
+
+void fillImage(ImageImpl& image, const std::string& what) {
+  static constexpr std::array<MemoryWish, 2> kWishes{MemoryWish{vk::MemoryPropertyFlagBits::eDeviceLocal},
+                                                     MemoryWish{}};
+  const vk::raii::Device& device = image.device->device;
+  image.image = vk::raii::Image(device, imageInfo(image));
+  image.memory =
+      std::make_unique<Allocation>(allocate(*image.device, what, image.image.getMemoryRequirements(), kWishes));
+  image.image.bindMemory(image.memory->handle(), 0);
+  const auto view = vk::ImageViewCreateInfo()
+                        .setImage(*image.image)
+                        .setViewType(vk::ImageViewType::e2D)
+                        .setFormat(formatOf(image.format))
+                        .setSubresourceRange({aspectOf(image.format), 0, 1, 0, 1});
+  image.view = vk::raii::ImageView(device, view);
+  nameObject(*image.device, image.image, image.name);
+}
+
+}  // namespace
+
+vk::Format formatOf(ImageFormat format) {
+  return format == ImageFormat::depth32f ? vk::Format::eD32Sfloat : vk::Format::eR32G32B32A32Sfloat;
+}
+
+vk::SampleCountFlagBits sampleFlag(std::uint32_t samples) {
+  // Vulkan's flag of a count is the count itself.
+  return static_cast<vk::SampleCountFlagBits>(samples);
+}
+
+void checkSamples(const DeviceImpl& device, const std::string& what, std::uint32_t samples) {
+  const std::vector<std::uint32_t>& counts = device.info.msaaCounts;
+  if (std::find(counts.begin(), counts.end(), samples) != counts.end()) return;
+  throw DeviceError(fmt::format("{} asks for {} samples per pixel; {} can do {}", what, samples, device.info.name,
+                                fmt::join(counts, ", ")));
+}
+
+Image::Image(const Device& device, std::string name, ImageFormat format, std::uint32_t width, std::uint32_t height,
+             std::uint32_t samples)
+    : impl_(new ImageImpl{&device.impl(), std::move(name), format, {width, height}, samples}) {
+  const std::string what = fmt::format("image '{}'", impl_->name);
+  checkExtent(*impl_->device, what, width, height);
+  checkSamples(*impl_->device, what, samples);
+  guarded("making " + what, [&] { fillImage(*impl_, what); });
+}
+
+std::uint32_t Image::width() const { return impl_->extent.width; }
+std::uint32_t Image::height() const { return impl_->extent.height; }
+std::uint32_t Image::samples() const { return impl_->samples; }
+
+template struct Release<ImageImpl>;
+
+}  // namespace crosslight::gpu

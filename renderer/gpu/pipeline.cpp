@@ -1,0 +1,212 @@
+#include "gpu/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "gpu/impl.h"
+
+namespace crosslight::gpu {
+namespace {
+
+// Specialization constants in Vulkan's form; what `info` points to lives here.
+struct Specialization {
+  explicit Specialization(const Constants& constants) {
+    for (const Constant& constant : constants) {
+      for (const vk::SpecializationMapEntry& earlier : entries) CL_CHECK(earlier.constantID != constant.id);
+      entries.emplace_back(constant.id, static_cast<std::uint32_t>(4 * bits.size()), 4);
+      bits.push_back(constant.bits);
+    }
+    info.setMapEntries(entries).setData<std::uint32_t>(bits);
+  }
+  Specialization(const Specialization&) = delete;
+  Specialization& operator=(const Specialization&) = delete;
+
+  std::vector<vk::SpecializationMapEntry> entries;
+  std::vector<std::uint32_t> bits;
+  vk::SpecializationInfo info;
+};
+
+vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code) {
+  CL_CHECK(!code.words.empty());
+  vk::raii::ShaderModule module(device.device,
+                                vk::ShaderModuleCreateInfo({}, code.words.size_bytes(), code.words.data()));
+  nameObject(device, module, std::string(code.name));
+  return module;
+}
+
+vk::PipelineShaderStageCreateInfo stageInfo(vk::ShaderStageFlagBits stage, const vk::raii::ShaderModule& module,
+                                            const Specialization& specialization) {
+  return vk::PipelineShaderStageCreateInfo({}, stage, *module, "main", &specialization.info);
+}
+
+vk::Format vertexFormat(VertexFormat format) {
+  switch (format) {
+    case VertexFormat::float1:
+      return vk::Format::eR32Sfloat;
+    case VertexFormat::float2:
+      return vk::Format::eR32G32Sfloat;
+    case VertexFormat::float3:
+      return vk::Format::eR32G32B32Sfloat;
+    case VertexFormat::float4:
+      return vk::Format::eR32G32B32A32Sfloat;
+    case VertexFormat::uint1:
+      return vk::Format::eR32Uint;
+  }
+  throw InternalError("broken invariant: unknown vertex format");
+}
+
+vk::CompareOp compareOp(DepthTest test) {
+  switch (test) {
+    case DepthTest::greater:
+      return vk::CompareOp::eGreater;
+    case DepthTest::greaterOrEqual:
+      return vk::CompareOp::eGreaterOrEqual;
+    case DepthTest::equal:
+      return vk::CompareOp::eEqual;
+    case DepthTest::off:
+      break;
+  }
+  return vk::CompareOp::eAlways;
+}
+
+constexpr std::array kDynamicStates{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                    vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
+
+// All fixed-function state of one pipeline; the create infos point into this object, so it stays where it was made.
+struct FixedState {
+  explicit FixedState(const GraphicsState& state);
+  FixedState(const FixedState&) = delete;
+  FixedState& operator=(const FixedState&) = delete;
+
+  std::vector<vk::VertexInputBindingDescription> buffers;
+  std::vector<vk::VertexInputAttributeDescription> attributes;
+  vk::PipelineVertexInputStateCreateInfo vertexInput;
+  vk::PipelineInputAssemblyStateCreateInfo assembly{{}, vk::PrimitiveTopology::eTriangleList};
+  vk::PipelineViewportStateCreateInfo viewport{{}, 1, nullptr, 1, nullptr};
+  vk::PipelineRasterizationStateCreateInfo rasterization;
+  vk::PipelineMultisampleStateCreateInfo multisample;
+  vk::PipelineDepthStencilStateCreateInfo depth;
+  vk::PipelineColorBlendAttachmentState target;
+  vk::PipelineColorBlendStateCreateInfo blend;
+  vk::PipelineDynamicStateCreateInfo dynamic{{}, kDynamicStates};
+  vk::Format colorFormat = formatOf(ImageFormat::rgba32f);
+  vk::PipelineRenderingCreateInfo rendering;
+
+ private:
+  void describeVertices(const GraphicsState& state);
+  void describeTargets(const GraphicsState& state);
+};
+
+FixedState::FixedState(const GraphicsState& state) {
+  describeVertices(state);
+  rasterization.setPolygonMode(state.polygonMode == PolygonMode::line ? vk::PolygonMode::eLine : vk::PolygonMode::eFill)
+      .setDepthBiasEnable(state.depthBiasConstant != 0.0f || state.depthBiasSlope != 0.0f)
+      .setDepthBiasConstantFactor(state.depthBiasConstant)
+      .setDepthBiasSlopeFactor(state.depthBiasSlope)
+      .setLineWidth(1.0f);
+  multisample.setRasterizationSamples(sampleFlag(state.samples));
+  // Vulkan writes no depth where the test is off, so a write without a test is a test that always passes.
+  depth.setDepthTestEnable(state.depthTarget && (state.depthTest != DepthTest::off || state.depthWrite))
+      .setDepthWriteEnable(state.depthTarget && state.depthWrite)
+      .setDepthCompareOp(compareOp(state.depthTest));
+  describeTargets(state);
+}
+
+void FixedState::describeVertices(const GraphicsState& state) {
+  for (const VertexBufferLayout& buffer : state.buffers) {
+    buffers.emplace_back(static_cast<std::uint32_t>(buffers.size()), buffer.strideBytes);
+  }
+  for (const VertexAttribute& attribute : state.attributes) {
+    CL_CHECK_LT(attribute.buffer, buffers.size());
+    attributes.emplace_back(attribute.location, attribute.buffer, vertexFormat(attribute.format), attribute.offset);
+  }
+  vertexInput.setVertexBindingDescriptions(buffers).setVertexAttributeDescriptions(attributes);
+}
+
+void FixedState::describeTargets(const GraphicsState& state) {
+  using Component = vk::ColorComponentFlagBits;
+  target.setColorWriteMask(Component::eR | Component::eG | Component::eB | Component::eA);
+  if (state.blend == Blend::overPremultiplied) {
+    // Porter and Duff 1984, "Compositing Digital Images": "over", colors multiplied by their alpha beforehand.
+    target.setBlendEnable(VK_TRUE)
+        .setSrcColorBlendFactor(vk::BlendFactor::eOne)
+        .setDstColorBlendFactor(vk::BlendFactor::eOneMinusSrcAlpha)
+        .setSrcAlphaBlendFactor(vk::BlendFactor::eOne)
+        .setDstAlphaBlendFactor(vk::BlendFactor::eOneMinusSrcAlpha);
+  }
+  if (state.colorTarget) {
+    blend.setAttachments(target);
+    rendering.setColorAttachmentFormats(colorFormat);
+  }
+  if (state.depthTarget) rendering.setDepthAttachmentFormat(formatOf(ImageFormat::depth32f));
+}
+
+vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& state) {
+  const DeviceImpl& device = *impl.device;
+  const Specialization specialization(state.constants);
+  const vk::raii::ShaderModule vertex = moduleOf(device, state.vertex);
+  std::vector<vk::PipelineShaderStageCreateInfo> stages{
+      stageInfo(vk::ShaderStageFlagBits::eVertex, vertex, specialization)};
+  vk::raii::ShaderModule fragment{nullptr};
+  if (!state.fragment.words.empty()) {
+    fragment = moduleOf(device, state.fragment);
+    stages.push_back(stageInfo(vk::ShaderStageFlagBits::eFragment, fragment, specialization));
+  }
+  const FixedState fixed(state);
+  const auto info = vk::GraphicsPipelineCreateInfo()
+                        .setPNext(&fixed.rendering)
+                        .setStages(stages)
+                        .setPVertexInputState(&fixed.vertexInput)
+                        .setPInputAssemblyState(&fixed.assembly)
+                        .setPViewportState(&fixed.viewport)
+                        .setPRasterizationState(&fixed.rasterization)
+                        .setPMultisampleState(&fixed.multisample)
+                        .setPDepthStencilState(&fixed.depth)
+                        .setPColorBlendState(&fixed.blend)
+                        .setPDynamicState(&fixed.dynamic)
+                        .setLayout(*impl.layout->pipeline);
+  return {device.device, device.pipelineCache, info};
+}
+
+vk::raii::Pipeline makeCompute(const PipelineImpl& impl, ShaderCode code, const Constants& constants) {
+  const DeviceImpl& device = *impl.device;
+  const Specialization specialization(constants);
+  const vk::raii::ShaderModule module = moduleOf(device, code);
+  const vk::ComputePipelineCreateInfo info({}, stageInfo(vk::ShaderStageFlagBits::eCompute, module, specialization),
+                                           *impl.layout->pipeline);
+  return {device.device, device.pipelineCache, info};
+}
+
+}  // namespace
+
+ComputePipeline::ComputePipeline(const Device& device, const BindingLayout& layout, ShaderCode code,
+                                 const Constants& constants)
+    : impl_(new PipelineImpl{&device.impl(), layout.shared(), vk::PipelineBindPoint::eCompute}) {
+  guarded(fmt::format("making the pipeline of {}", code.name), [&] {
+    impl_->pipeline = makeCompute(*impl_, code, constants);
+    nameObject(*impl_->device, impl_->pipeline, std::string(code.name));
+  });
+  throwOnMessages(*impl_->device);
+}
+
+GraphicsPipeline::GraphicsPipeline(const Device& device, const BindingLayout& layout, const GraphicsState& state)
+    : impl_(new PipelineImpl{&device.impl(), layout.shared(), vk::PipelineBindPoint::eGraphics}) {
+  impl_->drawsColor = state.colorTarget;
+  impl_->drawsDepth = state.depthTarget;
+  impl_->samples = state.samples;
+  const std::string name = fmt::format("{} {}", state.vertex.name, state.fragment.name);
+  checkSamples(*impl_->device, "the pipeline of " + name, state.samples);
+  guarded("making the pipeline of " + name, [&] {
+    impl_->pipeline = makeGraphics(*impl_, state);
+    nameObject(*impl_->device, impl_->pipeline, name);
+  });
+  throwOnMessages(*impl_->device);
+}
+
+template struct Release<PipelineImpl>;
+
+}  // namespace crosslight::gpu
