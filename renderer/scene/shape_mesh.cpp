@@ -166,7 +166,8 @@ Primitive coneMesh(double radius, double height, int segments) {
 
 Primitive torusMesh(double ringRadius, double tubeRadius, int segments) {
   Primitive mesh;
-  const int rows = std::max(3, stepsFor(tubeRadius * segments, ringRadius, 4 * segments));
+  // Even, so that the outermost circle is one of the rows.
+  const int rows = std::max(4, 2 * stepsFor(tubeRadius * segments, 2.0 * ringRadius, 2 * segments));
   const auto sample = [&](double column, int row) {
     const dvec2 around = longitudeAt(column, segments);
     const dvec2 across = onCircle(row, rows);
