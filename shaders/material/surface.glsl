@@ -18,6 +18,7 @@ struct SurfaceInput {
   vec4 color;
   uint materialId;
   bool frontFacing;
+  bool bothSides;  // lit on the side that is seen whatever the material says: secondary rays
 };
 
 struct SurfacePoint {
@@ -87,7 +88,7 @@ SurfacePoint surfaceAt(SurfaceInput at) {
   s.transmissionColor = vec3(m.transmission);
 
   bool flip = CL_HAS(twoSided) && !at.frontFacing &&
-              ((m.flags & kMaterialDoubleSided) != 0u || frame.twoSided != 0u);
+              (at.bothSides || (m.flags & kMaterialDoubleSided) != 0u || frame.twoSided != 0u);
   s.ng = flip ? -at.geometricNormal : at.geometricNormal;
   vec3 n = safeNormalize(at.normal, at.geometricNormal);
 #ifndef CL_UNTEXTURED

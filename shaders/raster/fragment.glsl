@@ -28,6 +28,7 @@ SurfaceInput surfaceInput() {
   at.color = vertexColor;
   at.materialId = draws[drawId].materialId;
   at.frontFacing = gl_FrontFacing;
+  at.bothSides = false;
 #if defined(CL_AOV) || defined(CL_CENTROID)
   TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
   at.geometricNormal = triangleNormal(c.v0, c.v1, c.v2, (draws[drawId].flags & kDrawFlipsWinding) != 0u);

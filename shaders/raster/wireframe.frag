@@ -10,6 +10,6 @@ layout(location = 0) out vec4 outColor;
 
 void main() {
   SurfaceInput at = SurfaceInput(renderPos, renderNormal, vec3(0.0, 0.0, 1.0), renderTangent, uvs.xy, uvs.zw,
-                                 vertexColor, draws[drawId].materialId, gl_FrontFacing);
+                                 vertexColor, draws[drawId].materialId, gl_FrontFacing, false);
   outColor = vec4(surfaceAt(at).albedo, 1.0);
 }

@@ -131,9 +131,8 @@ struct FrameRecord {
   uint twoSided;          // 1: light and show both sides of every surface
   vec3 ambient;           // Ia
   vec3 background;
-  float positionErrorScale;  // largest render-space coordinate of the scene: scale of rounding errors
 };
-CL_SIZE(FrameRecord, 184)
+CL_SIZE(FrameRecord, 180)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {

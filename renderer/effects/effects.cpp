@@ -1,0 +1,191 @@
+// Rules: one per effect, each finds the first object that calls for it. Promotion stands in one function below them.
+#include "effects/effects.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <set>
+
+#include "effects/material_traits.h"
+#include "scene/shape_mesh.h"
+
+namespace crosslight {
+namespace {
+
+std::string quoted(const std::string& kind, const std::string& name, std::size_t index) {
+  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+}
+
+// The materials that something drawn uses, in order.
+std::set<int> usedMaterials(const Scene& scene, bool shapesAreTraced) {
+  std::set<int> used;
+  for (const MeshInstance& instance : scene.instances) {
+    if (instance.replacedByShape && shapesAreTraced) continue;
+    for (const Primitive& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) used.insert(p.material);
+  }
+  for (const ShapeInstance& shape : scene.shapes) used.insert(shape.material);
+  return used;
+}
+
+class Analysis {
+ public:
+  Analysis(const Scene& scene, const RenderSettings& settings)
+      : scene_(scene), settings_(settings), traced_(settings.method == Method::whitted),
+        materials_(usedMaterials(scene, traced_)) {}
+
+  Plan run() {
+    models();
+    lights();
+    shapes();
+    materialRules();
+    vertexColors();
+    sides();
+    rayRules();
+    promote();
+    return std::move(plan_);
+  }
+
+ private:
+  using MaterialTest = std::function<bool(const Material&)>;
+
+  void add(Effect effect, const char* name, bool on, std::string reason) {
+    if (settings_.allEffects && !on) {
+      on = true;
+      reason = "compiled in because all effects were asked for; " + reason;
+    }
+    if (on) plan_.effects |= 1u << static_cast<std::uint32_t>(effect);
+    plan_.verdicts.push_back({name, on, std::move(reason)});
+  }
+
+  // First used material that passes, described; empty when none does.
+  std::string firstMaterial(const MaterialTest& test) const {
+    for (const int index : materials_) {
+      const Material& m = scene_.materials[static_cast<std::size_t>(index)];
+      if (test(m)) return quoted("material", m.name, static_cast<std::size_t>(index));
+    }
+    return {};
+  }
+
+  void addByMaterial(Effect effect, const char* name, const std::string& what, const MaterialTest& test) {
+    const std::string who = firstMaterial(test);
+    add(effect, name, !who.empty(), who.empty() ? "no material in use " + what : who + " " + what);
+  }
+
+  void addListed(std::uint32_t& bits, std::uint32_t value, const char* name, const std::string& who) {
+    const bool on = settings_.allEffects || !who.empty();
+    if (on) bits |= 1u << value;
+    plan_.verdicts.push_back({name, on, who.empty() ? "nothing in the scene uses it" : "used by " + who});
+  }
+
+  void models() {
+#define CL_ROW(value, name, ...) \
+  addListed(plan_.models, value, #name, firstMaterial([](const Material& m) { return m.model == IlluminationModel::name; }));
+    CL_ILLUMINATION_MODELS(CL_ROW)
+#undef CL_ROW
+  }
+
+  void lights() {
+    const auto first = [&](LightType type) -> std::string {
+      for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        if (scene_.lights[i].type == type) return quoted("light", scene_.lights[i].name, i);
+      }
+      return {};
+    };
+#define CL_ROW(value, name, ...) addListed(plan_.lights, value, #name, first(LightType::name));
+    CL_LIGHT_TYPES(CL_ROW)
+#undef CL_ROW
+  }
+
+  void shapes() {
+    const auto first = [&](ShapeKind kind) -> std::string {
+      for (std::size_t i = 0; traced_ && i < scene_.shapes.size(); ++i) {
+        if (scene_.shapes[i].kind == kind) return quoted("node", scene_.shapes[i].name, i);
+      }
+      return {};
+    };
+#define CL_ROW(value, name, ...) addListed(plan_.shapes, value, #name, first(ShapeKind::name));
+    CL_SHAPE_KINDS(CL_ROW)
+#undef CL_ROW
+    const bool any = traced_ && !scene_.shapes.empty();
+    add(Effect::shapes, "shapes", any,
+        any ? fmt::format("{} analytic shapes are traced", scene_.shapes.size())
+            : (traced_ ? "the scene has no analytic shape" : "raster draws the shapes' meshes"));
+  }
+
+  void materialRules() {
+    addByMaterial(Effect::baseColorTexture, "baseColorTexture", "has a base color texture",
+                  [](const Material& m) { return m.baseColorTexture.present(); });
+    addByMaterial(Effect::metallicRoughnessTexture, "metallicRoughnessTexture", "has a metallic-roughness texture",
+                  [](const Material& m) { return m.metallicRoughnessTexture.present(); });
+    addByMaterial(Effect::normalMap, "normalMap", "has a normal map",
+                  [](const Material& m) { return m.normalTexture.present(); });
+    addByMaterial(Effect::occlusionTexture, "occlusionTexture", "has an occlusion texture",
+                  [](const Material& m) { return m.occlusionTexture.present(); });
+    addByMaterial(Effect::emissiveTexture, "emissiveTexture", "has an emissive texture",
+                  [](const Material& m) { return m.emissiveTexture.present(); });
+    addByMaterial(Effect::alphaMask, "alphaMask", "is cut by an alpha mask",
+                  [](const Material& m) { return m.alphaMode == AlphaMode::mask; });
+    addByMaterial(Effect::transparency, "transparency", "lets something show through", isTransparent);
+  }
+
+  void vertexColors() {
+    std::string who;
+    for (const Mesh& mesh : scene_.meshes) {
+      for (const Primitive& p : mesh.primitives) {
+        if (who.empty() && !p.colors.empty()) who = mesh.name.empty() ? "a mesh" : "mesh '" + mesh.name + "'";
+      }
+    }
+    add(Effect::vertexColors, "vertexColors", !who.empty(),
+        who.empty() ? "no mesh has vertex colors" : who + " has vertex colors");
+  }
+
+  void sides() {
+    if (settings_.twoSided == TwoSided::always) {
+      add(Effect::twoSided, "twoSided", true, "asked for: both sides of every surface are lit");
+    } else {
+      addByMaterial(Effect::twoSided, "twoSided", "is double-sided", [](const Material& m) { return m.doubleSided; });
+    }
+  }
+
+  void addRayRule(Effect effect, const char* name, bool wanted, const std::string& what, const MaterialTest& test) {
+    if (!traced_) return add(effect, name, false, "not simulated by raster methods");
+    if (!wanted) return add(effect, name, false, "switched off");
+    addByMaterial(effect, name, what, test);
+  }
+
+  void rayRules() {
+    const bool lit = traced_ && settings_.shadows && !scene_.lights.empty();
+    add(Effect::shadows, "shadows", lit,
+        !traced_ ? "not simulated by raster methods"
+                 : (!settings_.shadows ? "switched off"
+                                       : (lit ? fmt::format("{} lights cast shadows", scene_.lights.size())
+                                              : "the scene has no light")));
+    const bool deep = settings_.maxDepth > 0;
+    addRayRule(Effect::reflection, "reflection", settings_.reflection && deep, "reflects like a mirror", isMirror);
+    addRayRule(Effect::refraction, "refraction", settings_.refraction && deep, "refracts", refracts);
+    addRayRule(Effect::absorption, "absorption", settings_.refraction && deep, "absorbs light on its way", absorbs);
+  }
+
+  // Secondary rays meet surfaces from behind, which must then be lit from behind.
+  void promote() {
+    const bool secondary = plan_.has(Effect::reflection) || plan_.has(Effect::refraction) ||
+                           (traced_ && plan_.has(Effect::transparency));
+    if (!secondary || plan_.has(Effect::twoSided)) return;
+    plan_.effects |= 1u << static_cast<std::uint32_t>(Effect::twoSided);
+    for (EffectVerdict& v : plan_.verdicts) {
+      if (v.name == "twoSided") v = {"twoSided", true, "secondary rays meet surfaces from behind"};
+    }
+  }
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  bool traced_;
+  std::set<int> materials_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan makePlan(const Scene& scene, const RenderSettings& settings) { return Analysis(scene, settings).run(); }
+
+}  // namespace crosslight

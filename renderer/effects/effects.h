@@ -1,0 +1,33 @@
+// Which effects a scene calls for, each with its reason, and the plan that follows: specialisation constants. Pure
+// functions of scene and settings. Leaving out what is off changes no bit of the image (a test holds that).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace crosslight {
+
+struct EffectVerdict {
+  std::string name;    // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
+  bool on = false;
+  std::string reason;  // names the object that calls for it, or says that none does
+};
+
+// Bits as in the lists of shaders/shared/.
+struct Plan {
+  std::uint32_t models = 0;
+  std::uint32_t lights = 0;
+  std::uint32_t shapes = 0;
+  std::uint32_t effects = 0;
+  std::vector<EffectVerdict> verdicts;
+
+  bool has(Effect effect) const { return (effects >> static_cast<std::uint32_t>(effect)) & 1u; }
+};
+
+Plan makePlan(const Scene& scene, const RenderSettings& settings);
+
+}  // namespace crosslight

@@ -1,0 +1,68 @@
+#include "upload/gpu_scene.h"
+
+#include <utility>
+
+#include "bindings.h"
+
+namespace crosslight {
+
+using namespace shared;
+
+GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
+                   const FlatBvh* bvh)
+    : scene_(scene), settings_(settings), flat_(std::move(flat)) {
+  const glm::dvec3 origin = renderOrigin(scene.cameras[static_cast<std::size_t>(settings.camera)]);
+  const MaterialRecords materials = makeMaterialRecords(scene);
+  frame_ = gpu::Buffer(device, "frame constants", sizeof(FrameRecord), gpu::useUniform | gpu::useHostWrite);
+  materials_ = gpu::Buffer::of(device, "materials", materials.materials, gpu::useStorage);
+  lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage);
+  draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage);
+  positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useStorage | gpu::useVertex);
+  attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useStorage | gpu::useVertex);
+  indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useStorage | gpu::useIndex);
+  shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage);
+  texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
+  const FlatBvh none;
+  const FlatBvh& tree = bvh ? *bvh : none;
+  nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.bvh.nodes, gpu::useUniformTexel);
+  primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
+}
+
+void GpuScene::setSample(const glm::vec2& sampleOffset) {
+  FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
+  frame.shapeCount = static_cast<std::uint32_t>(flat_.shapes.size());
+  frame.unboundedShapeCount = flat_.unboundedShapeCount;
+  frame_.write(0, std::as_bytes(std::span(&frame, 1)));
+}
+
+void GpuScene::bind(gpu::BindingSet& set) const {
+  set.set(kBindFrame, frame_);
+  set.set(kBindMaterials, materials_);
+  set.set(kBindLights, lights_);
+  set.set(kBindDraws, draws_);
+  set.set(kBindPositions, positions_);
+  set.set(kBindAttributes, attributes_);
+  set.set(kBindIndices, indices_);
+  set.set(kBindShapes, shapes_);
+  set.set(kBindTexels, texels_);
+  set.set(kBindBvhNodes, nodes_);
+  set.set(kBindBvhPrimitives, primitives_);
+}
+
+std::vector<gpu::Binding> sceneBindings() {
+  using enum gpu::BindingType;
+  return {{kBindFrame, uniformBuffer},      {kBindMaterials, storageBuffer},  {kBindLights, storageBuffer},
+          {kBindDraws, storageBuffer},      {kBindPositions, storageBuffer},  {kBindAttributes, storageBuffer},
+          {kBindIndices, storageBuffer},    {kBindShapes, storageBuffer},     {kBindTexels, texelBufferFloat4},
+          {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
+}
+
+gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant) {
+  return {{kSpecModels, plan.models},
+          {kSpecLights, plan.lights},
+          {kSpecShapes, plan.shapes},
+          {kSpecEffects, plan.effects},
+          {kSpecVariant, variant}};
+}
+
+}  // namespace crosslight

@@ -1,0 +1,42 @@
+// The scene on the device: every buffer that shaders read, bound in one go.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/pipeline.h"
+#include "upload/flatten.h"
+#include "upload/records.h"
+
+namespace crosslight {
+
+// Buffers of one scene as one method sees it. The frame's constants change with every sample.
+class GpuScene {
+ public:
+  // `bvh` may be null (raster).
+  GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
+           const FlatBvh* bvh);
+
+  const FlatScene& flat() const { return flat_; }
+  void setSample(const glm::vec2& sampleOffset);
+  void bind(gpu::BindingSet& set) const;  // slots kBindFrame .. kBindBvhPrimitives
+  std::uint32_t lightCount() const { return static_cast<std::uint32_t>(scene_.lights.size()); }
+  const Scene& scene() const { return scene_; }
+
+  const gpu::Buffer& positions() const { return positions_; }
+  const gpu::Buffer& attributes() const { return attributes_; }
+  const gpu::Buffer& indices() const { return indices_; }
+
+ private:
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  FlatScene flat_;
+  gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_, primitives_;
+};
+
+// The slots that GpuScene binds, for layouts.
+std::vector<gpu::Binding> sceneBindings();
+// The plan as specialisation constants, with the variant of one shader.
+gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant = 0);
+
+}  // namespace crosslight

@@ -1,0 +1,205 @@
+#include "upload/records.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <map>
+
+#include "base/log.h"
+#include "effects/material_traits.h"
+
+namespace crosslight {
+namespace {
+
+// IEC 61966-2-1, in double: textures are decoded once, on the host.
+float decodeSrgb(float v) {
+  const double x = v;
+  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+}
+
+class MaterialWriter {
+ public:
+  explicit MaterialWriter(const Scene& scene) : scene_(scene) {}
+
+  MaterialRecords run() {
+    for (const Material& m : scene_.materials) result_.materials.push_back(record(m));
+    if (result_.materials.empty()) result_.materials.push_back(record(Material{}));
+    if (result_.texels.empty()) result_.texels.emplace_back(1.0f);
+    return std::move(result_);
+  }
+
+ private:
+  shared::MaterialRecord record(const Material& m) {
+    shared::MaterialRecord r{};
+    r.model = static_cast<std::uint32_t>(m.model);
+    r.flags = flagsOf(m);
+    const bool classic = isClassic(m);
+    r.baseColor = classic ? glm::vec4(1.0f, 1.0f, 1.0f, m.baseColorFactor.a) : m.baseColorFactor;
+    if (m.alphaMode == AlphaMode::opaque) r.baseColor.a = 1.0f;
+    r.metallic = m.metallicFactor;
+    r.perceptualRoughness = m.perceptualRoughnessFactor;
+    r.ambientColor = m.classic.ambientFactor;
+    r.diffuseColor = m.classic.diffuseFactor;
+    r.specularColor = m.model == IlluminationModel::lambert ? glm::vec3(0.0f) : m.classic.specularFactor;
+    r.shininess = m.classic.shininess;
+    r.emission = m.emissiveFactor * m.emissiveStrength;
+    r.alphaCutoff = m.alphaCutoff;
+    r.normalScale = m.normalScale;
+    r.occlusionStrength = m.occlusionStrength;
+    r.transmission = transmissionOf(m);
+    r.indexOfRefraction = m.indexOfRefraction;
+    r.mirror = classic ? m.classic.reflectionFactor : glm::vec3(0.0f);
+    r.attenuationColor = m.attenuationColor;
+    r.attenuationDistance = absorbs(m) ? m.attenuationDistance : 0.0f;
+    r.baseColorTexture = slot(m.baseColorTexture, true);
+    r.metallicRoughnessTexture = slot(m.metallicRoughnessTexture, false);
+    r.normalTexture = slot(m.normalTexture, false);
+    r.occlusionTexture = slot(m.occlusionTexture, false);
+    r.emissiveTexture = slot(m.emissiveTexture, true);
+    return r;
+  }
+
+  static std::uint32_t flagsOf(const Material& m) {
+    std::uint32_t flags = 0;
+    if (m.doubleSided) flags |= shared::kMaterialDoubleSided;
+    if (m.alphaMode == AlphaMode::mask) flags |= shared::kMaterialAlphaMask;
+    if (m.alphaMode == AlphaMode::blend) flags |= shared::kMaterialAlphaBlend;
+    if (isMirror(m)) flags |= shared::kMaterialMirror;
+    if (refracts(m)) flags |= shared::kMaterialRefracts;
+    // KHR_materials_transmission without a volume is an infinitely thin sheet; the classic kt has no such notion.
+    if (refracts(m) && !isClassic(m) && !m.hasVolume) flags |= shared::kMaterialThin;
+    if (m.hasVolume) flags |= shared::kMaterialVolume;
+    return flags;
+  }
+
+  shared::TextureSlot slot(const TextureUse& use, bool srgb) {
+    shared::TextureSlot s{};
+    s.firstTexel = shared::kNoTexture;
+    s.uvFromUvXy = {1.0f, 0.0f, 0.0f, 1.0f};
+    if (!use.present()) return s;
+    const TextureImage& image = scene_.images[static_cast<std::size_t>(use.image)];
+    s.firstTexel = texelsOf(use.image, srgb);
+    s.width = image.width;
+    s.height = image.height;
+    const auto wrap = [](Wrap w) { return static_cast<std::uint32_t>(w); };
+    s.flags = (use.texCoord == 1 ? shared::kTextureUv1 : 0u) |
+              (use.filter == Filter::nearest ? shared::kTextureNearest : 0u) |
+              (wrap(use.wrapU) << shared::kTextureWrapShiftU) | (wrap(use.wrapV) << shared::kTextureWrapShiftV);
+    // KHR_texture_transform, T * R * S. Counter-clockwise as seen with v pointing down, as the Khronos test model
+    // (TextureTransformTest) and its viewers have it; the specification's code listing has the other sign.
+    const float c = std::cos(use.rotation);
+    const float n = std::sin(use.rotation);
+    s.uvFromUvXy = {use.scale.x * c, -use.scale.x * n, use.scale.y * n, use.scale.y * c};
+    s.uvOffset = use.offset;
+    return s;
+  }
+
+  std::uint32_t texelsOf(int image, bool srgb) {
+    const auto [found, isNew] = placed_.try_emplace({image, srgb}, static_cast<std::uint32_t>(result_.texels.size()));
+    if (!isNew) return found->second;
+    const TextureImage& source = scene_.images[static_cast<std::size_t>(image)];
+    for (std::size_t i = 0; i + 3 < source.rgba.size(); i += 4) {
+      glm::vec4 texel(source.rgba[i], source.rgba[i + 1], source.rgba[i + 2], source.rgba[i + 3]);
+      if (srgb) texel = {decodeSrgb(texel.x), decodeSrgb(texel.y), decodeSrgb(texel.z), texel.w};
+      result_.texels.push_back(texel);
+    }
+    return found->second;
+  }
+
+  const Scene& scene_;
+  MaterialRecords result_;
+  std::map<std::pair<int, bool>, std::uint32_t> placed_;
+};
+
+void setClassic(const Light& light, const ClassicLight& c, shared::LightRecord& r) {
+  r.flags |= shared::kLightClassic;
+  r.ambient = c.ambient;
+  r.diffuse = c.diffuse;
+  r.specular = c.specular;
+  r.attenuation = c.attenuation;
+  if (c.attenuation == glm::vec3(0.0f)) {
+    logWarning("light '" + light.name + "': attenuation (0, 0, 0) divides by zero; taken as no attenuation");
+    r.attenuation = {1.0f, 0.0f, 0.0f};
+  }
+  r.spotExponent = c.spotExponent;
+  constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+  r.cosOuter = c.spotCutoff >= 180.0f ? -2.0f : static_cast<float>(std::cos(c.spotCutoff * kRadiansPerDegree));
+}
+
+}  // namespace
+
+MaterialRecords makeMaterialRecords(const Scene& scene) { return MaterialWriter(scene).run(); }
+
+std::vector<shared::LightRecord> makeLightRecords(const Scene& scene, const glm::dvec3& origin) {
+  std::vector<shared::LightRecord> records;
+  for (const Light& light : scene.lights) {
+    shared::LightRecord r{};
+    r.type = static_cast<std::uint32_t>(light.type);
+    r.renderPosition = glm::vec3(light.worldPosition - origin);
+    r.direction = glm::vec3(light.worldDirection);
+    r.diffuse = light.color * light.intensity;
+    r.specular = r.diffuse;
+    r.attenuation = {1.0f, 0.0f, 0.0f};
+    r.range = light.range.value_or(0.0f);
+    r.cosInner = std::cos(light.innerConeAngle);
+    r.cosOuter = std::cos(light.outerConeAngle);
+    if (light.classic) setClassic(light, *light.classic, r);
+    records.push_back(r);
+  }
+  return records;
+}
+
+glm::dvec3 renderOrigin(const Camera& camera) { return glm::dvec3(camera.worldFromCamera[3]); }
+
+shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& settings, const glm::vec2& sampleOffset) {
+  const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
+  const glm::dmat3 axes(camera.worldFromCamera);
+  const glm::dvec3 right = glm::normalize(axes[0]), up = glm::normalize(axes[1]), forward = -glm::normalize(axes[2]);
+  const double aspect = static_cast<double>(settings.width) / settings.height;
+  const double halfY = camera.orthographic ? camera.yMag : std::tan(0.5 * camera.yFov);
+  const double halfX = halfY * aspect;
+  const double n = camera.zNear;
+
+  // Rows of the projection act on (right, up, forward) coordinates x, y, d. Reversed Z: the near plane has depth 1.
+  double depthOfD, depthConstant;
+  if (camera.orthographic) {
+    const double f = camera.zFar.value_or(n + 1.0);
+    depthOfD = -1.0 / (f - n);
+    depthConstant = f / (f - n);
+  } else {
+    const bool bounded = camera.zFar.has_value();
+    depthOfD = bounded ? -n / (*camera.zFar - n) : 0.0;
+    depthConstant = bounded ? n * *camera.zFar / (*camera.zFar - n) : n;
+  }
+  // The rasteriser samples at pixel centers: the image is moved so that the sample position lies there.
+  const double moveX = -2.0 * (sampleOffset.x - 0.5) / settings.width;
+  const double moveY = -2.0 * (sampleOffset.y - 0.5) / settings.height;
+  glm::dmat4 clip(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const double w = camera.orthographic ? 0.0 : forward[i];
+    clip[i] = {right[i] / halfX + moveX * w, -up[i] / halfY + moveY * w, depthOfD * forward[i], w};
+  }
+  clip[3] = {camera.orthographic ? moveX : 0.0, camera.orthographic ? moveY : 0.0, depthConstant,
+             camera.orthographic ? 1.0 : 0.0};
+
+  shared::FrameRecord f{};
+  f.clipFromRender = glm::mat4(clip);
+  f.cameraRight = glm::vec3(right);
+  f.cameraUp = glm::vec3(up);
+  f.cameraForward = glm::vec3(forward);
+  f.imagePlaneHalf = glm::vec2(static_cast<float>(halfX), static_cast<float>(halfY));
+  f.sampleOffset = sampleOffset;
+  f.zNear = static_cast<float>(n);
+  f.zFar = camera.zFar ? static_cast<float>(*camera.zFar) : std::numeric_limits<float>::infinity();
+  f.orthographic = camera.orthographic ? 1u : 0u;
+  f.infiniteViewer = settings.infiniteViewer ? 1u : 0u;
+  f.resolution = {settings.width, settings.height};
+  f.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+  f.twoSided = settings.twoSided == TwoSided::always ? 1u : 0u;
+  f.ambient = scene.atmosphere.ambient;
+  f.background = scene.atmosphere.background;
+  return f;
+}
+
+}  // namespace crosslight
