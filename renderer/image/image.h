@@ -9,14 +9,18 @@
 
 namespace crosslight {
 
-// One layer of an image: `channels` floats per pixel, interleaved, rows from top to bottom.
+// One layer of an image: one value per channel and pixel, interleaved, rows from top to bottom. A layer of ids keeps
+// its values in `integers`, because floats are exact only up to 2^24; the other vector is empty.
 struct Layer {
   std::string name;                       // "" is the picture itself; AOVs have names ("depth", "normal", ...)
   std::vector<std::string> channelNames;  // EXR's channel letters, e.g. {"R","G","B","A"}, {"Z"}, {"X","Y","Z"}
-  std::vector<float> samples;             // width * height * channelNames.size()
-  bool isInteger = false;                 // ids: exact integers, stored as UINT in EXR
+  std::vector<float> samples;             // width * height * channelNames.size(), unless isInteger
+  bool isInteger = false;                 // stored as UINT in EXR
+  std::vector<std::uint32_t> integers;    // width * height * channelNames.size(), if isInteger
 
   std::size_t channels() const { return channelNames.size(); }
+  // Index of a channel by its name; channels() when there is none.
+  std::size_t channel(const std::string& channelName) const;
 };
 
 struct Image {
@@ -28,9 +32,28 @@ struct Image {
   const Layer* find(const std::string& name) const;
   Layer& picture();
   const Layer& picture() const;
+  std::size_t pixels() const { return std::size_t{width} * height; }
 };
+
+// No side of an image may be longer, written or read: a bound for hostile headers, far above Vulkan's 16384.
+inline constexpr std::uint32_t kMaxImageSide = 65536;
 
 // width x height RGBA picture, all zero.
 Image makeImage(std::uint32_t width, std::uint32_t height);
+
+// Adds an empty (all zero) layer and returns it; the reference holds until the next one is added.
+Layer& addLayer(Image& image, const std::string& name, const std::vector<std::string>& channelNames);
+Layer& addIntegerLayer(Image& image, const std::string& name, const std::vector<std::string>& channelNames);
+
+// One pixel of a layer as a color: R, G, B if it has them, else its first three channels, one channel as gray. Alpha is
+// 1 without an A channel. Float layers only.
+struct PixelReader {
+  PixelReader(const Image& image, const Layer& layer);
+  void operator()(std::size_t pixel, float (&rgba)[4]) const;
+
+ private:
+  const Layer& layer_;
+  std::size_t index_[4];  // channel of r, g, b, a; channels(): none
+};
 
 }  // namespace crosslight

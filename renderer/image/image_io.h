@@ -1,8 +1,10 @@
 // Images from and to files. The format follows the file's extension.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "image/image.h"
 
@@ -27,11 +29,26 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Dis
 // Reads png (sRGB decoded to linear), exr (all layers), hdr, pfm. InputError names file and cause.
 Image readImage(const std::filesystem::path& path);
 
+// The picture as the display shows it: 8-bit sRGB, 3 or 4 values per pixel, rows from top to bottom. NaN becomes 0 and
+// infinities the largest float before tone mapping; `nonFinite` counts both.
+struct DisplayPicture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t channels = 3;
+  std::vector<std::uint8_t> codes;
+  std::size_t nonFinite = 0;
+};
+DisplayPicture displayPicture(const Image& image, const DisplayTransform& display);
+
 // Linear to sRGB and back (IEC 61966-2-1), unclamped, per value.
 float srgbFromLinear(float linear);
 float linearFromSrgb(float srgb);
 
-// One pixel's display value in [0,1] for clamp, reinhard and neutral; `none` may exceed it and is clamped by the encoder.
+// floor(255 srgbFromLinear(linear) + 1/2), by table; values outside [0,1] are clamped, NaN gives 0.
+std::uint8_t srgbCodeFromLinear(float linear);
+
+// One pixel's display value in [0,1] for clamp, reinhard and neutral; `none` may exceed it and is clamped by the
+// encoder.
 struct Rgb {
   float r, g, b;
 };

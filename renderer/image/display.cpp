@@ -1,0 +1,135 @@
+// From linear radiance to what a display shows: exposure, tone map, sRGB transfer, 8-bit codes.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "image/image_io.h"
+
+namespace crosslight {
+
+// IEC 61966-2-1:1999, "Colour management - Default RGB colour space - sRGB". In double, so that the result is the
+// formula's value rounded once.
+float srgbFromLinear(float linear) {
+  const double x = linear;
+  return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+}
+
+float linearFromSrgb(float srgb) {
+  const double x = srgb;
+  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+}
+
+namespace {
+
+// codeFirst[b] is the code of the smallest float whose upper 16 bits are b; threshold[k] the smallest float that gets
+// a code >= k. A bucket spans 1/128 of its value, less than one or two codes: a lookup and at most a few steps.
+struct CodeTable {
+  static constexpr std::uint32_t kOne = std::bit_cast<std::uint32_t>(1.0f);
+  static constexpr std::uint32_t kShift = 16;
+  std::array<float, 257> threshold;
+  std::array<std::uint8_t, (kOne >> kShift) + 1> codeFirst;
+
+  static int codeOf(float linear) { return static_cast<int>(std::floor(255.0 * srgbFromLinear(linear) + 0.5)); }
+
+  CodeTable() {
+    threshold[0] = 0;
+    threshold[256] = std::numeric_limits<float>::infinity();
+    for (int code = 1; code < 256; ++code) {
+      std::uint32_t below = 0, above = kOne;  // bit patterns of floats >= 0 are in the order of their values
+      while (above - below > 1) {
+        const std::uint32_t middle = below + (above - below) / 2;
+        (codeOf(std::bit_cast<float>(middle)) >= code ? above : below) = middle;
+      }
+      threshold[static_cast<std::size_t>(code)] = std::bit_cast<float>(above);
+    }
+    std::size_t code = 0;
+    for (std::size_t b = 0; b < codeFirst.size(); ++b) {
+      while (std::bit_cast<float>(static_cast<std::uint32_t>(b) << kShift) >= threshold[code + 1]) ++code;
+      codeFirst[b] = static_cast<std::uint8_t>(code);
+    }
+  }
+
+  std::uint8_t operator()(float linear) const {
+    if (!(linear > 0)) return 0;
+    const float x = std::min(linear, 1.0f);
+    std::size_t code = codeFirst[std::bit_cast<std::uint32_t>(x) >> kShift];
+    while (x >= threshold[code + 1]) ++code;
+    return static_cast<std::uint8_t>(code);
+  }
+};
+
+// Khronos PBR Neutral Tone Mapper, specification 1.0 (Khronos Group 2024): below the start of compression the color
+// only loses the 4 % that a dielectric's reflection adds, above it the peak approaches 1 and the color white.
+Rgb toneMapNeutral(Rgb c) {
+  constexpr float kF90 = 0.04f, kStart = 0.8f - kF90, kDesaturation = 0.15f;
+  const float least = std::min({c.r, c.g, c.b});
+  const float offset = least < 2 * kF90 ? least - least * least / (4 * kF90) : kF90;
+  const Rgb shifted{c.r - offset, c.g - offset, c.b - offset};
+  const float peak = std::max({shifted.r, shifted.g, shifted.b});
+  if (peak <= kStart) return shifted;
+  const float room = 1 - kStart;
+  const float newPeak = 1 - room * room / (peak + room - kStart);
+  const float scale = newPeak / peak;
+  const float kept = 1 / (kDesaturation * (peak - newPeak) + 1);
+  const auto mix = [&](float x) { return newPeak + (x * scale - newPeak) * kept; };
+  return {mix(shifted.r), mix(shifted.g), mix(shifted.b)};
+}
+
+// Not below 0, not above 1, and never NaN.
+float clamp01(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
+Rgb clamp01(Rgb c) { return {clamp01(c.r), clamp01(c.g), clamp01(c.b)}; }
+
+// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", Eq. 3, on each channel.
+float reinhard(float x) { return x > 0 ? x / (1 + x) : 0.0f; }
+
+}  // namespace
+
+std::uint8_t srgbCodeFromLinear(float linear) {
+  static const CodeTable table;
+  return table(linear);
+}
+
+Rgb applyToneMap(Rgb linear, ToneMap toneMap) {
+  switch (toneMap) {
+    case ToneMap::none:
+      return linear;
+    case ToneMap::clamp:
+      return clamp01(linear);
+    case ToneMap::reinhard:
+      return clamp01(Rgb{reinhard(linear.r), reinhard(linear.g), reinhard(linear.b)});
+    case ToneMap::neutral:
+      return clamp01(toneMapNeutral({std::max(linear.r, 0.0f), std::max(linear.g, 0.0f), std::max(linear.b, 0.0f)}));
+  }
+  return linear;
+}
+
+DisplayPicture displayPicture(const Image& image, const DisplayTransform& display) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  DisplayPicture result;
+  result.width = image.width;
+  result.height = image.height;
+  result.channels = display.withAlpha ? 4 : 3;
+  result.codes.resize(image.pixels() * result.channels);
+  const PixelReader read(image, image.picture());
+  const float gain = std::exp2(display.exposureStops);
+  std::uint8_t* out = result.codes.data();
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    float p[4];
+    read(i, p);
+    for (int c = 0; c < (display.withAlpha ? 4 : 3); ++c) {
+      if (!std::isfinite(p[c])) ++result.nonFinite;
+      if (std::isnan(p[c])) p[c] = 0;
+    }
+    for (int c = 0; c < 3; ++c) p[c] = std::clamp(p[c] * gain, -kLargest, kLargest);
+    const Rgb shown = applyToneMap({p[0], p[1], p[2]}, display.toneMap);
+    *out++ = srgbCodeFromLinear(shown.r);
+    *out++ = srgbCodeFromLinear(shown.g);
+    *out++ = srgbCodeFromLinear(shown.b);
+    if (display.withAlpha) *out++ = static_cast<std::uint8_t>(std::floor(255.0 * clamp01(p[3]) + 0.5));
+  }
+  return result;
+}
+
+}  // namespace crosslight
