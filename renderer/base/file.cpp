@@ -23,7 +23,8 @@ std::vector<std::byte> readFile(const fs::path& path, std::uint64_t maxBytes) {
   const std::streamoff size = in.tellg();
   if (size < 0) throw InputError(path.string(), "its size cannot be read");
   if (static_cast<std::uint64_t>(size) > maxBytes) {
-    throw InputError(path.string(), "is " + std::to_string(size) + " bytes large, the limit is " + std::to_string(maxBytes));
+    throw InputError(path.string(),
+                     "is " + std::to_string(size) + " bytes large, the limit is " + std::to_string(maxBytes));
   }
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   in.seekg(0);
@@ -37,10 +38,11 @@ namespace {
 void flushToDisk(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw InputError(path.string(), std::string("cannot be reopened: ") + std::strerror(errno));
-  const int result = ::fsync(file);
+  const int cause = ::fsync(file) == 0 ? 0 : errno;
   ::close(file);
   // Some file systems know no fsync (EINVAL); the rename is still atomic there.
-  if (result != 0 && errno != EINVAL) throw InputError(path.string(), std::string("cannot be flushed: ") + std::strerror(errno));
+  if (cause != 0 && cause != EINVAL)
+    throw InputError(path.string(), std::string("cannot be flushed: ") + std::strerror(cause));
 }
 
 }  // namespace
@@ -49,8 +51,10 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
   static std::atomic<unsigned> counter{0};
   fs::path temporary = path;
   // The extension stays last: writers that choose their format by it work on the temporary file too.
-  temporary.replace_filename("." + path.stem().string() + ".tmp" + std::to_string(::getpid()) + "-" +
-                             std::to_string(counter++) + path.extension().string());
+  std::string name = ".";
+  name += path.stem().string() + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(counter++) +
+          path.extension().string();
+  temporary.replace_filename(name);
   struct Cleanup {
     const fs::path& file;
     bool armed = true;
