@@ -30,7 +30,9 @@ std::set<int> usedMaterials(const Scene& scene, bool shapesAreTraced) {
 class Analysis {
  public:
   Analysis(const Scene& scene, const RenderSettings& settings)
-      : scene_(scene), settings_(settings), traced_(settings.method == Method::whitted),
+      : scene_(scene),
+        settings_(settings),
+        traced_(settings.method == Method::whitted),
         materials_(usedMaterials(scene, traced_)) {}
 
   Plan run() {
@@ -78,8 +80,9 @@ class Analysis {
   }
 
   void models() {
-#define CL_ROW(value, name, ...) \
-  addListed(plan_.models, value, #name, firstMaterial([](const Material& m) { return m.model == IlluminationModel::name; }));
+#define CL_ROW(value, name, ...)        \
+  addListed(plan_.models, value, #name, \
+            firstMaterial([](const Material& m) { return m.model == IlluminationModel::name; }));
     CL_ILLUMINATION_MODELS(CL_ROW)
 #undef CL_ROW
   }
@@ -168,8 +171,8 @@ class Analysis {
 
   // Secondary rays meet surfaces from behind, which must then be lit from behind.
   void promote() {
-    const bool secondary = plan_.has(Effect::reflection) || plan_.has(Effect::refraction) ||
-                           (traced_ && plan_.has(Effect::transparency));
+    const bool secondary =
+        plan_.has(Effect::reflection) || plan_.has(Effect::refraction) || (traced_ && plan_.has(Effect::transparency));
     if (!secondary || plan_.has(Effect::twoSided)) return;
     plan_.effects |= 1u << static_cast<std::uint32_t>(Effect::twoSided);
     for (EffectVerdict& v : plan_.verdicts) {

@@ -12,7 +12,7 @@
 namespace crosslight {
 
 struct EffectVerdict {
-  std::string name;    // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
+  std::string name;  // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
   bool on = false;
   std::string reason;  // names the object that calls for it, or says that none does
 };

@@ -88,14 +88,16 @@ class Flattener {
     draw.materialId = static_cast<std::uint32_t>(material);
     draw.instanceId = instanceId;
     draw.primitiveBase = primitiveBase;
-    draw.flags = (place.mirrors ? shared::kDrawFlipsWinding : 0u) | (p.tangents.empty() ? 0u : shared::kDrawHasTangents);
+    draw.flags =
+        (place.mirrors ? shared::kDrawFlipsWinding : 0u) | (p.tangents.empty() ? 0u : shared::kDrawHasTangents);
     if (draw.triangleCount == 0) return;
     flat_.draws.push_back(draw);
     for (std::size_t i = 0; i < p.positions.size(); ++i) {
       flat_.positions.push_back(place.point(glm::dvec3(p.positions[i])));
       flat_.attributes.push_back(attributesOf(p, i, place));
     }
-    for (const std::uint32_t index : p.indices) flat_.indices.push_back(static_cast<std::uint32_t>(firstVertex) + index);
+    for (const std::uint32_t index : p.indices)
+      flat_.indices.push_back(static_cast<std::uint32_t>(firstVertex) + index);
   }
 
   static shared::VertexAttributes attributesOf(const Primitive& p, std::size_t i, const Placement& place) {
@@ -172,8 +174,8 @@ class Flattener {
     Bounds result;
     for (int i = 0; i < 3; ++i) {
       // gamma_8 of the largest coordinate: the shaders' point on a shape is off by gamma_6 at most.
-      const double margin = 8.0 * 6e-8 * std::max({std::abs(moved.lower[i]), std::abs(moved.upper[i]),
-                                                   std::abs(place.shift[i])});
+      const double margin =
+          8.0 * 6e-8 * std::max({std::abs(moved.lower[i]), std::abs(moved.upper[i]), std::abs(place.shift[i])});
       result.lower[i] = std::nextafter(static_cast<float>(moved.lower[i] - margin), -std::numeric_limits<float>::max());
       result.upper[i] = std::nextafter(static_cast<float>(moved.upper[i] + margin), std::numeric_limits<float>::max());
     }

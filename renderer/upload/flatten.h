@@ -15,7 +15,7 @@ struct FlatScene {
   std::vector<glm::vec3> positions;
   std::vector<shared::VertexAttributes> attributes;  // as long as positions
   std::vector<std::uint32_t> indices;
-  std::vector<shared::DrawRecord> draws;   // those with triangles first, in scene order, then one per shape
+  std::vector<shared::DrawRecord> draws;  // those with triangles first, in scene order, then one per shape
   std::uint32_t meshDrawCount = 0;
   std::vector<shared::ShapeRecord> shapes;  // unbounded ones first
   std::vector<Bounds> shapeBounds;          // of the bounded ones, render space
@@ -25,8 +25,9 @@ struct FlatScene {
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
-// `analyticShapes`: keep shapes as such and leave out the meshes that they replace (rays); else draw meshes, tessellating
-// shapes that have none (raster). `origin` is the world position that becomes zero. DeviceError beyond 2^31 indices.
+// `analyticShapes`: keep shapes as such and leave out the meshes that they replace (rays); else draw meshes,
+// tessellating shapes that have none (raster). `origin` is the world position that becomes zero. DeviceError beyond
+// 2^31 indices.
 FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes);
 
 // BVH over triangles and bounded shapes, with its primitives in leaf order as the shaders read them.

@@ -51,9 +51,9 @@ void GpuScene::bind(gpu::BindingSet& set) const {
 
 std::vector<gpu::Binding> sceneBindings() {
   using enum gpu::BindingType;
-  return {{kBindFrame, uniformBuffer},      {kBindMaterials, storageBuffer},  {kBindLights, storageBuffer},
-          {kBindDraws, storageBuffer},      {kBindPositions, storageBuffer},  {kBindAttributes, storageBuffer},
-          {kBindIndices, storageBuffer},    {kBindShapes, storageBuffer},     {kBindTexels, texelBufferFloat4},
+  return {{kBindFrame, uniformBuffer},       {kBindMaterials, storageBuffer},       {kBindLights, storageBuffer},
+          {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, storageBuffer},
+          {kBindIndices, storageBuffer},     {kBindShapes, storageBuffer},          {kBindTexels, texelBufferFloat4},
           {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
 }
 

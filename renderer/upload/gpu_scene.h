@@ -31,7 +31,8 @@ class GpuScene {
   const Scene& scene_;
   const RenderSettings& settings_;
   FlatScene flat_;
-  gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_, primitives_;
+  gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
+      primitives_;
 };
 
 // The slots that GpuScene binds, for layouts.

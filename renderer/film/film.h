@@ -1,0 +1,104 @@
+// The film: sums samples of the picture on the device and reads them back. A Technique fills one sample; where it comes
+// from (raster or rays) is its own affair.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+#include "gpu/commands.h"
+#include "image/image.h"
+#include "structs.h"
+
+namespace crosslight {
+
+// Rows of the image that are worked on at once: per-pixel buffers hold a band, whatever the image's size.
+struct Band {
+  std::uint32_t firstRow = 0;
+  std::uint32_t rowCount = 0;
+};
+
+// Per-pixel buffers of the largest band. `aovs`, `parts` hold one dummy record when no AOV is asked for.
+struct FilmBuffers {
+  gpu::Buffer sampleColor, aovs, film, parts, counters;
+};
+
+// Adds up milliseconds and counts by name over many submissions, in the order of first use.
+class Tally {
+ public:
+  void add(const std::vector<gpu::TimedSpan>& spans);
+  const std::vector<std::pair<std::string, double>>& spansMs() const { return spans_; }
+
+ private:
+  std::vector<std::pair<std::string, double>> spans_;
+};
+
+struct SampleRequest {
+  Band band;
+  std::uint32_t width = 0;
+  glm::vec2 offset{0.5f};
+  bool color = true;
+  bool aovs = false;
+};
+
+// Makes one sample of a band: writes FilmBuffers::sampleColor (premultiplied RGBA, linear) and, if asked, aovs.
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  virtual void renderSample(const SampleRequest& request, Tally& tally) = 0;
+  // Light paths that it computes, in Heckbert's notation, with what it leaves out in words.
+  virtual std::string promise() const = 0;
+  virtual std::map<std::string, std::uint64_t> rays() const { return {}; }
+  virtual std::map<std::string, std::uint64_t> counters() const { return {}; }
+};
+
+struct FilmSettings {
+  std::uint32_t width = 0, height = 0;
+  std::vector<glm::vec2> offsets;  // of the samples within the pixel
+  bool wantAovs = false;
+};
+
+struct FilmResult {
+  std::vector<glm::vec4> picture;       // premultiplied mean of the samples
+  std::vector<shared::AovRecord> aovs;  // at pixel centers; averaged parts replaced by their means
+  std::uint64_t nonfinite = 0;
+  std::uint32_t firstNonfinitePixel = 0;  // when nonfinite > 0
+  double renderMs = 0, readbackMs = 0;
+};
+
+class Film {
+ public:
+  Film(const gpu::Device& device, const FilmSettings& settings);
+  FilmBuffers& buffers() { return buffers_; }
+  // Loops over bands and samples; `progress` is called after each with (done, total). Ctrl-C is looked for here.
+  FilmResult expose(Technique& technique, Tally& tally,
+                    const std::function<void(std::uint64_t, std::uint64_t)>& progress);
+
+ private:
+  void exposeBand(Technique& technique, const Band& band, Tally& tally, FilmResult& result,
+                  const std::function<void()>& step);
+  void clearAovs(const Band& band);
+  void accumulate(const Band& band, bool first, Tally& tally);
+  void readBand(const Band& band, const std::vector<shared::AovRecord>& centers, FilmResult& result);
+  void readCounters(FilmResult& result);
+
+  const gpu::Device& device_;
+  FilmSettings settings_;
+  std::uint32_t bandRows_ = 0;
+  FilmBuffers buffers_;
+  gpu::Commands commands_;
+  gpu::BindingLayout layout_;
+  gpu::BindingSet set_;
+  gpu::ComputePipeline accumulate_;
+};
+
+// Sub-pixel positions of `count` samples under a filter, the same for every pixel and every technique: for one sample
+// the pixel's center; else a (0,2)-sequence (Sobol 1967), shifted by the seed, warped to the filter's density.
+enum class FilterShape { box, tent, gaussian };
+std::vector<glm::vec2> samplePattern(std::uint32_t count, FilterShape filter, std::uint64_t seed);
+
+}  // namespace crosslight

@@ -1,0 +1,85 @@
+// Which rays follow a hit, with which weight: at most one mirrored and one transmitted.
+#ifndef CROSSLIGHT_CHILDREN_GLSL
+#define CROSSLIGHT_CHILDREN_GLSL
+
+// Node for a new ray, or kNoRayNode when the store is full (counted: the host starts again with fewer pixels).
+uint addRay(RayNode parent, HitSurface h, vec3 direction, vec3 weight, uint kind, uint medium) {
+  uint slot = atomicAdd(counters[kCounterRayNodes], 1u);
+  if (slot >= pushed.nodeCapacity) {
+    atomicAdd(counters[kCounterOverflow], 1u);
+    return kNoRayNode;
+  }
+  RayNode node;
+  node.origin = leaveSurface(h, direction);
+  node.tMin = 0.0;
+  node.direction = direction;
+  node.tMax = kLargest;
+  node.weight = weight;
+  node.pixel = parent.pixel;
+  node.value = vec3(0.0);
+  node.kind = kind;
+  node.reflected = kNoRayNode;
+  node.transmitted = kNoRayNode;
+  node.medium = medium;
+  node.depth = parent.depth + 1u;
+  node.alpha = 0.0;
+  nodes[slot] = node;
+  atomicAdd(counters[kCounterReflection - kRayReflection + kind], 1u);
+  return slot;
+}
+
+bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
+
+// A mirrored ray about a shading normal may point below the surface: it is then mirrored about the surface itself.
+vec3 mirrorRay(vec3 d, vec3 n, vec3 ng) {
+  vec3 r = safeNormalize(reflect(d, n), ng);
+  return dot(r, ng) > 0.0 ? r : safeNormalize(reflect(d, ng), ng);
+}
+
+void spawnChildren(inout RayNode node, HitSurface h, SurfacePoint s) {
+  if (node.depth >= pushed.maxDepth) return;
+  MaterialRecord m = materials[h.at.materialId];
+  vec3 d = safeNormalize(node.direction, vec3(0.0, 0.0, 1.0));
+  bool fromOutside = h.at.frontFacing;
+  vec3 ng = fromOutside ? h.at.geometricNormal : -h.at.geometricNormal;
+  vec3 outward = safeNormalize(h.at.normal, h.at.geometricNormal);
+  vec3 n = fromOutside == (dot(outward, h.at.geometricNormal) > 0.0) ? outward : -outward;
+  n = dot(s.n, ng) > 0.0 ? s.n : n;  // the mapped normal where it is on the ray's side
+  float cosI = clamp(-dot(d, n), 0.0, 1.0);
+
+  bool classic = s.model != kModel_cookTorrance;
+  bool bends = CL_HAS(refraction) && (m.flags & kMaterialRefracts) != 0u;
+  bool thin = (m.flags & kMaterialThin) != 0u;
+  float ior = max(m.indexOfRefraction, 1.0);
+  float eta = thin || fromOutside ? 1.0 / ior : ior;
+  float F = fresnelDielectric(cosI, eta);
+  vec3 refracted;
+  bool passes = refractRay(d, n, eta, refracted);
+
+  vec3 mirrorWeight = vec3(0.0);
+  if (CL_HAS(reflection) && (m.flags & kMaterialMirror) != 0u) {
+    float schlick = schlickWeight(cosI);
+    mirrorWeight = classic ? m.mirror : s.specularColor + (1.0 - s.specularColor) * schlick;
+  }
+  vec3 throughWeight = CL_HAS(transparency) || bends ? (classic ? vec3(m.transmission) : s.transmissionColor) : vec3(0.0);
+  float behind = CL_HAS(transparency) && !(classic && m.transmission > 0.0) ? 1.0 - s.opacity : 0.0;
+  if (bends && !classic) {
+    mirrorWeight = CL_HAS(reflection) ? vec3(F) : vec3(0.0);
+    throughWeight *= 1.0 - F;
+  }
+  vec3 onward = bends && !thin && passes ? refracted : d;
+  if (bends && !thin && !passes) {  // total internal reflection takes what would have passed
+    mirrorWeight = classic ? mirrorWeight + throughWeight : mirrorWeight;
+    throughWeight = vec3(0.0);
+  }
+  throughWeight += vec3(behind);
+  if (carriesLight(mirrorWeight))
+    node.reflected = addRay(node, h, mirrorRay(d, n, ng), mirrorWeight, kRayReflection, node.medium);
+  if (carriesLight(throughWeight)) {
+    uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
+    bool bent = bends && !thin;
+    node.transmitted = addRay(node, h, onward, throughWeight, bent ? kRayRefraction : kRayPassThrough,
+                              bent ? inside : node.medium);
+  }
+}
+#endif

@@ -1,0 +1,80 @@
+// From a hit record to the surface's attributes, as the rasteriser's interpolation would give them, and to the origin
+// of rays that leave the surface.
+#ifndef CROSSLIGHT_HIT_SURFACE_GLSL
+#define CROSSLIGHT_HIT_SURFACE_GLSL
+#include "accel/bvh.glsl"
+#include "shade/triangle.glsl"
+
+struct HitSurface {
+  SurfaceInput at;
+  vec3 positionError;  // bound of the rounding error of at.renderPos, per axis
+  uint drawId;
+  uint primitiveId;
+};
+
+HitSurface triangleSurface(HitRecord hit) {
+  PrimitiveTexels p = fetchPrimitive(hit.primitive);
+  VertexAttributes a0 = attributes[indices[3u * p.id]];
+  VertexAttributes a1 = attributes[indices[3u * p.id + 1u]];
+  VertexAttributes a2 = attributes[indices[3u * p.id + 2u]];
+  DrawRecord draw = draws[p.drawId];
+  vec3 b = vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
+  HitSurface s;
+  s.at.renderPos = b.x * p.v0 + b.y * p.v1 + b.z * p.v2;
+  // gamma_7: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering" 4th ed., Eq. 6.31.
+  s.positionError = gammaBound(7.0) * (abs(b.x * p.v0) + abs(b.y * p.v1) + abs(b.z * p.v2));
+  s.at.normal = b.x * a0.renderNormal + b.y * a1.renderNormal + b.z * a2.renderNormal;
+  s.at.geometricNormal = triangleNormal(p.v0, p.v1, p.v2, (draw.flags & kDrawFlipsWinding) != 0u);
+  s.at.tangent = b.x * a0.renderTangent + b.y * a1.renderTangent + b.z * a2.renderTangent;
+  s.at.uv0 = b.x * a0.uv0 + b.y * a1.uv0 + b.z * a2.uv0;
+  s.at.uv1 = b.x * a0.uv1 + b.y * a1.uv1 + b.z * a2.uv1;
+  s.at.color = b.x * a0.color + b.y * a1.color + b.z * a2.color;
+  s.at.materialId = draw.materialId;
+  s.drawId = p.drawId;
+  s.primitiveId = draw.primitiveBase + p.id - draw.firstTriangle;
+  return s;
+}
+
+HitSurface shapeSurface(HitRecord hit, Ray ray) {
+  ShapeRecord shape = shapes[hit.primitive & ~kHitShape];
+  ShapeHit found = hitShapeInstance(hit.primitive & ~kHitShape, ray);
+  DrawRecord draw = draws[shape.drawId];
+  HitSurface s;
+  vec3 fromCenter = shape.renderFromObject * found.p;
+  s.at.renderPos = shape.renderCenter + fromCenter;
+  // Scale of the shape's own coordinates, not of the hit point: near the origin of a huge sphere the point is small but
+  // its error is not. Five roundings: two of the point on the shape, three of the transform; one more of the sum.
+  float extent = maxComponent(abs(fromCenter)) + maxComponent(abs(shape.renderCenter));
+  s.positionError = vec3(gammaBound(6.0) * extent);
+  // Normals go by the transpose of the inverse; cofactors are that up to a positive factor and the determinant's sign.
+  s.at.geometricNormal = safeNormalize(found.n * shape.objectFromRender, vec3(0.0, 1.0, 0.0));
+  s.at.normal = s.at.geometricNormal;
+  s.at.tangent = vec4(0.0);
+  s.at.uv0 = found.uv;
+  s.at.uv1 = found.uv;
+  s.at.color = vec4(1.0);
+  s.at.materialId = draw.materialId;
+  s.drawId = shape.drawId;
+  s.primitiveId = 0u;
+  return s;
+}
+
+// `bothSides`: what secondary rays meet is lit on the side that they see (camera rays keep to the material's rule).
+HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
+  HitSurface s;
+  if (CL_HAS(shapes) && (hit.primitive & kHitShape) != 0u) s = shapeSurface(hit, ray);
+  else s = triangleSurface(hit);
+  s.at.frontFacing = dot(s.at.geometricNormal, ray.direction) < 0.0;
+  s.at.bothSides = bothSides;
+  return s;
+}
+
+// Origin of a ray that leaves the surface towards `direction`: beyond the error bound, on that side. The sum rounds
+// once more, hence the last term.
+vec3 leaveSurface(HitSurface s, vec3 direction) {
+  vec3 ng = s.at.geometricNormal;
+  float along = dot(abs(ng), s.positionError + gammaBound(2.0) * abs(s.at.renderPos));
+  return s.at.renderPos + (dot(ng, direction) < 0.0 ? -along : along) * ng;
+}
+
+#endif

@@ -1,0 +1,15 @@
+#version 460
+// Closest hit of every ray of one level.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/scene_bindings.glsl"
+#include "trace/tree.glsl"
+#include "accel/bvh.glsl"
+
+layout(local_size_x = 64) in;
+
+void main() {
+  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
+  uint index = pushed.firstNode + gl_GlobalInvocationID.x;
+  RayNode node = nodes[index];
+  hits[index] = closestHit(rayOf(node), node.kind == kRayPrimary);
+}

@@ -1,0 +1,9 @@
+// The ray tree's storage and the step from a hit to a surface: shared by the kernels of the Whitted tracer.
+#ifndef CROSSLIGHT_TREE_GLSL
+#define CROSSLIGHT_TREE_GLSL
+
+layout(push_constant, scalar) uniform PushBlock { TracePush pushed; };
+layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
+layout(set = 0, binding = kBindHits, scalar) buffer HitBlock { HitRecord hits[]; };
+layout(set = 0, binding = kBindVisibility, scalar) buffer VisibilityBlock { float visibilities[]; };
+#endif
