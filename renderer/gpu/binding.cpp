@@ -74,15 +74,10 @@ void fillSet(BindingSetImpl& set) {
   set.isSet.assign(set.layout->bindings.size(), false);
 }
 
+// Its size was checked against maxTexelBufferElements when the buffer was made: all texels here have 16 bytes.
 vk::raii::BufferView texelView(const BufferImpl& buffer, BindingType type) {
-  const bool isFloat4 = type == BindingType::texelBufferFloat4;
-  const std::uint64_t elements = buffer.capacityBytes / (isFloat4 ? 16u : 4u);
-  const std::uint32_t most = buffer.device->limits.maxTexelBufferElements;
-  if (elements > most) {
-    throw DeviceError(fmt::format("buffer '{}' holds {} texels, the limit of {} is {} (maxTexelBufferElements)",
-                                  buffer.name, elements, buffer.device->info.name, most));
-  }
-  const vk::Format format = isFloat4 ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR32Uint;
+  const vk::Format format =
+      type == BindingType::texelBufferFloat4 ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR32G32B32A32Uint;
   return {buffer.device->device, vk::BufferViewCreateInfo({}, *buffer.buffer, format, 0, buffer.capacityBytes)};
 }
 

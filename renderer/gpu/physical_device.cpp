@@ -130,7 +130,7 @@ void refuseFormats(const vk::raii::PhysicalDevice& physical, std::vector<std::st
   using Flag = vk::FormatFeatureFlagBits;
   const auto color = physical.getFormatProperties(vk::Format::eR32G32B32A32Sfloat);
   const auto depth = physical.getFormatProperties(vk::Format::eD32Sfloat);
-  const auto index = physical.getFormatProperties(vk::Format::eR32Uint);
+  const auto integer = physical.getFormatProperties(vk::Format::eR32G32B32A32Uint);
   const auto need = [&](vk::FormatFeatureFlags has, vk::FormatFeatureFlags wanted, const char* what) {
     if ((has & wanted) != wanted) refusals.push_back(fmt::format("needs {}", what));
   };
@@ -138,7 +138,7 @@ void refuseFormats(const vk::raii::PhysicalDevice& physical, std::vector<std::st
   need(color.optimalTilingFeatures, Flag::eColorAttachmentBlend, "blending into RGBA32F color attachments");
   need(depth.optimalTilingFeatures, Flag::eDepthStencilAttachment, "D32F depth attachments");
   need(color.bufferFeatures, Flag::eUniformTexelBuffer, "RGBA32F uniform texel buffers");
-  need(index.bufferFeatures, Flag::eUniformTexelBuffer, "R32_UINT uniform texel buffers");
+  need(integer.bufferFeatures, Flag::eUniformTexelBuffer, "RGBA32_UINT uniform texel buffers");
 }
 
 void chooseQueue(Candidate& candidate) {

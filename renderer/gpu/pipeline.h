@@ -48,14 +48,13 @@ class BindingLayout {
 };
 
 struct BindingSetImpl;
-// Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must outlive
-// it.
+// Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must
+// outlive the set. Buffers are bound whole; texels are R32G32B32A32_SFLOAT or R32G32B32A32_UINT.
 class BindingSet {
  public:
   BindingSet() = default;
   BindingSet(const Device& device, const BindingLayout& layout);
-  void set(std::uint32_t slot,
-           const Buffer& buffer);  // whole buffer; texel views are R32G32B32A32_SFLOAT or R32G32B32A32_UINT
+  void set(std::uint32_t slot, const Buffer& buffer);
   BindingSetImpl& impl() const { return *impl_; }
 
  private:

@@ -1,0 +1,241 @@
+#include <numeric>
+
+#include "gpu_fixture.h"
+
+namespace crosslight::gpu {
+namespace {
+
+using testing::HasSubstr;
+
+struct ScalePush {
+  std::uint32_t count;
+  std::uint32_t summand;
+};
+
+// scale_add.comp with its buffers: in = 0, 1, 2 ..., float texels 5, uint texels 7, uniform 11.
+struct ScaleAdd {
+  static constexpr std::uint32_t kCount = 1000;
+  static constexpr std::uint32_t kGroup = 64;
+
+  explicit ScaleAdd(const Device& device, std::uint32_t factor = 3)
+      : layout(device,
+               {{0, BindingType::storageBuffer},
+                {1, BindingType::storageBuffer},
+                {2, BindingType::texelBufferFloat4},
+                {3, BindingType::texelBufferUint4},
+                {4, BindingType::uniformBuffer}},
+               sizeof(ScalePush)),
+        pipeline(device, layout, embeddedShader("scale_add.comp"), {{0, kGroup}, {1, factor}}),
+        set(device, layout) {
+    std::vector<std::uint32_t> counting(kCount);
+    std::iota(counting.begin(), counting.end(), 0u);
+    in = Buffer::of(device, "in", counting, useStorage | useReadback);
+    out = Buffer(device, "out", 4 * kCount, useStorage);
+    floats = Buffer::of(device, "floats", std::vector<glm::vec4>(kCount, glm::vec4(0, 0, 0, 5)), useUniformTexel);
+    uints = Buffer::of(device, "uints", std::vector<glm::uvec4>(kCount, glm::uvec4(0, 7, 0, 0)), useUniformTexel);
+    uniform = Buffer::of(device, "uniform", std::vector<std::uint32_t>{11}, useUniform | useHostWrite);
+    set.set(0, in);
+    set.set(1, out);
+    set.set(2, floats);
+    set.set(3, uints);
+    set.set(4, uniform);
+  }
+
+  void record(Commands& commands, std::uint32_t summand) const {
+    commands.bind(pipeline, set);
+    commands.push(ScalePush{kCount, summand});
+    commands.dispatch((kCount + kGroup - 1) / kGroup);
+  }
+
+  std::vector<std::uint32_t> expected(std::uint32_t factor, std::uint32_t summand) const {
+    std::vector<std::uint32_t> values(kCount);
+    for (std::uint32_t i = 0; i < kCount; ++i) values[i] = factor * i + summand + 5 + 7 + 11;
+    return values;
+  }
+
+  BindingLayout layout;
+  ComputePipeline pipeline;
+  BindingSet set;
+  Buffer in, out, floats, uints, uniform;
+};
+
+TEST_F(GpuTest, ConstantsPushesAndEveryKindOfBindingReachTheShader) {
+  for (const std::uint32_t factor : {1u, 3u}) {
+    const ScaleAdd job(device(), factor);
+    Commands commands(device());
+    commands.begin();
+    job.record(commands, 100);
+    commands.submitAndWait();
+    EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(factor, 100));
+    EXPECT_GT(commands.submitToIdleMs(), 0.0);
+  }
+}
+
+TEST_F(GpuTest, CommandsCanBeRecordedAgain) {
+  const ScaleAdd job(device());
+  Commands commands(device());
+  for (const std::uint32_t summand : {1u, 2u, 3u}) {
+    commands.begin();
+    job.record(commands, summand);
+    commands.submitAndWait();
+    EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(3, summand));
+  }
+  EXPECT_THROW(commands.submitAndWait(), InternalError) << "nothing is recorded";
+}
+
+TEST_F(GpuTest, BarriersOrderDispatchesFillsAndCopies) {
+  const ScaleAdd job(device());
+  const Buffer copied(device(), "copied", job.out.sizeBytes(), useReadback);
+  Commands commands(device());
+  commands.begin();
+  commands.fill(job.out, 0, job.out.sizeBytes(), 0xffffffffu);
+  commands.barrier();
+  job.record(commands, 9);
+  commands.barrier();
+  commands.copy(job.out, 0, copied, 0, copied.sizeBytes());
+  commands.barrier();
+  commands.fill(job.out, 4, 8, 1);
+  commands.fill(job.out, 0, 0, 1);
+  commands.copy(job.out, 0, copied, 0, 0);
+  commands.submitAndWait();
+  EXPECT_EQ(copied.readAll<std::uint32_t>(), job.expected(3, 9));
+  const auto filled = job.out.readAll<std::uint32_t>();
+  EXPECT_EQ(filled[0], job.expected(3, 9)[0]);
+  EXPECT_EQ(filled[1], 1u);
+  EXPECT_EQ(filled[2], 1u);
+  EXPECT_EQ(filled[3], job.expected(3, 9)[3]);
+}
+
+TEST_F(GpuTest, AnIndirectDispatchTakesItsSizeFromABuffer) {
+  const ScaleAdd job(device());
+  const Buffer arguments =
+      Buffer::of(device(), "arguments", std::vector<std::uint32_t>{99, 2, 1, 1}, useIndirect | useStorage);
+  Commands commands(device());
+  commands.begin();
+  commands.fill(job.out, 0, job.out.sizeBytes(), 0);
+  commands.barrier();
+  commands.bind(job.pipeline, job.set);
+  commands.push(ScalePush{ScaleAdd::kCount, 0});
+  commands.dispatchIndirect(arguments, 4);
+  commands.submitAndWait();
+  auto expected = job.expected(3, 0);
+  std::fill(expected.begin() + 2 * ScaleAdd::kGroup, expected.end(), 0u);
+  EXPECT_EQ(job.out.readAll<std::uint32_t>(), expected);
+}
+
+TEST_F(GpuTest, AMissingBarrierIsFoundBySynchronizationValidation) {
+  const ScaleAdd job(device());
+  Commands commands(device());
+  commands.begin();
+  job.record(commands, 1);
+  job.record(commands, 2);  // writes `out` again, unordered
+  EXPECT_THAT(messageOf<InternalError>([&] { commands.submitAndWait(); }), HasSubstr("SYNC-HAZARD-WRITE-AFTER-WRITE"));
+}
+
+TEST_F(GpuTest, SpansMeasureWorkAndSumByName) {
+  const BindingLayout layout(device(), {{0, BindingType::storageBuffer}}, 4);
+  const ComputePipeline pipeline(device(), layout, embeddedShader("spin.comp"), {});
+  const Buffer state(device(), "state", 4, useStorage);
+  BindingSet set(device(), layout);
+  set.set(0, state);
+  Commands commands(device());
+  commands.begin();
+  // The rounds of "short" are a hundredth of those of "long"; more spans than fit in one query pool.
+  const auto spin = [&](const char* name, std::uint32_t rounds) {
+    commands.beginSpan(name);
+    commands.bind(pipeline, set);
+    commands.push(rounds);
+    commands.dispatch(1);
+    commands.endSpan();
+    commands.barrier();
+  };
+  spin("short", 20000);
+  spin("long", 2000000);
+  for (int i = 0; i < 300; ++i) spin("many", 1000);
+  commands.submitAndWait();
+  const auto& spans = commands.spans();
+  ASSERT_EQ(spans.size(), 3u);
+  EXPECT_EQ(spans[0].name, "short");
+  EXPECT_EQ(spans[1].name, "long");
+  EXPECT_EQ(spans[2].name, "many");
+  if (device().info().timestampPeriodNs <= 0) GTEST_SKIP() << "this device has no timestamps";
+  double sum = 0;
+  for (const TimedSpan& span : spans) {
+    EXPECT_GT(span.gpuMs, 0.0) << span.name;
+    sum += span.gpuMs;
+  }
+  EXPECT_GT(spans[1].gpuMs, spans[0].gpuMs);
+  EXPECT_LE(sum, commands.submitToIdleMs());
+  commands.begin();
+  commands.submitAndWait();
+  EXPECT_TRUE(commands.spans().empty());
+}
+
+TEST_F(GpuTest, MisuseIsABrokenInvariant) {
+  ScaleAdd job(device());
+  Commands commands(device());
+  EXPECT_THROW(commands.dispatch(1), InternalError) << "before begin";
+  commands.begin();
+  EXPECT_THROW(commands.dispatch(1), InternalError) << "before bind";
+  const BindingSet unset(device(), job.layout);
+  EXPECT_THAT(messageOf<InternalError>([&] { commands.bind(job.pipeline, unset); }), HasSubstr("slot 0"));
+  const BindingLayout other(device(), {{0, BindingType::storageBuffer}}, 0);
+  EXPECT_THROW(commands.bind(job.pipeline, BindingSet(device(), other)), InternalError) << "another layout";
+  EXPECT_THROW(job.set.set(9, job.in), InternalError) << "no such slot";
+  EXPECT_THROW(job.set.set(0, job.floats), InternalError) << "not a storage buffer";
+  commands.bind(job.pipeline, job.set);
+  EXPECT_THROW(commands.push(std::array<std::uint32_t, 3>{}), InternalError) << "more than declared";
+  EXPECT_THROW(commands.dispatch(0xffffffffu), InternalError) << "beyond the limit";
+  EXPECT_THROW(commands.dispatchIndirect(job.in, 0), InternalError) << "not an indirect buffer";
+  EXPECT_THROW(commands.fill(job.out, 0, job.out.sizeBytes() + 4, 0), InternalError);
+  EXPECT_THROW(commands.copy(job.in, 8, job.out, 0, job.in.sizeBytes()), InternalError);
+  EXPECT_THROW(commands.endSpan(), InternalError);
+  commands.beginSpan("outer");
+  EXPECT_THROW(commands.beginSpan("inner"), InternalError);
+  EXPECT_THROW(embeddedShader("nowhere.comp"), InternalError);
+  EXPECT_THROW(ComputePipeline(device(), job.layout, embeddedShader("scale_add.comp"), {{1, 1}, {1, 2}}), InternalError)
+      << "a constant twice";
+}
+
+TEST_F(GpuTest, PipelinesAndSetsOutliveTheirLayout) {
+  auto layout = std::make_unique<BindingLayout>(device(), std::vector<Binding>{{0, BindingType::storageBuffer}}, 4);
+  const ComputePipeline pipeline(device(), *layout, embeddedShader("spin.comp"), {});
+  BindingSet set(device(), *layout);
+  layout.reset();
+  const Buffer state = Buffer::of(device(), "state", std::vector<std::uint32_t>{2}, useStorage);
+  set.set(0, state);
+  Commands commands(device());
+  commands.begin();
+  commands.bind(pipeline, set);
+  commands.push(std::uint32_t{1});
+  commands.dispatch(1);
+  commands.submitAndWait();
+  EXPECT_EQ(state.readAll<std::uint32_t>().front(), 3u * 1664525u + (3u >> 13));
+}
+
+// In a process of its own: what a device may still use is kept, so the process must end while it runs.
+TEST_F(GpuTest, AWaitBeyondItsTimeIsAnErrorAndNothingIsFreed) {
+  const auto waitTooShort = [this] {
+    const Device own = Device::open();
+    const BindingLayout layout(own, {{0, BindingType::storageBuffer}}, 4);
+    const ComputePipeline pipeline(own, layout, embeddedShader("spin.comp"), {});
+    const std::string message = messageOf<InternalError>([&] {
+      const Buffer state(own, "state", 4, useStorage);
+      BindingSet set(own, layout);
+      set.set(0, state);
+      Commands commands(own);
+      commands.begin();
+      commands.bind(pipeline, set);
+      commands.push(std::uint32_t{2000000000});
+      commands.dispatch(1);
+      commands.submitAndWait(0.001);
+    });
+    std::fputs(message.c_str(), stderr);
+    std::fflush(stderr);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT((waitTooShort(), std::_Exit(0)), testing::ExitedWithCode(0), "did not finish within 0.001 s");
+}
+
+}  // namespace
+}  // namespace crosslight::gpu
