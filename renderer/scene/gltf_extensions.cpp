@@ -1,0 +1,155 @@
+// The CROSSLIGHT_* extensions: what scenes/schema/CROSSLIGHT_*.schema.json says, in code. Their names and limits are
+// compared by a test.
+#include <fmt/format.h>
+
+#include "scene/gltf_build.h"
+#include "scene/material_table.h"
+
+namespace crosslight::gltf {
+namespace {
+
+constexpr Range kUnit{0.0, 1.0, false};
+constexpr double kMaxSpotExponent = 128.0;  // OpenGL 1.x, GL_SPOT_EXPONENT
+
+std::string presetNames() {
+  std::string names;
+  for (const MaterialPreset& preset : materialPresets()) {
+    if (!names.empty()) names += ", ";
+    names += preset.name;
+  }
+  return names;
+}
+
+float number(const JsonAt& object, const char* key, float fallback, const Range& range) {
+  return static_cast<float>(numberOr(object, key, double{fallback}, range));
+}
+
+IlluminationModel modelOf(const std::string& name) {
+  if (name == "lambert") return IlluminationModel::lambert;
+  return name == "phong" ? IlluminationModel::phong : IlluminationModel::blinnPhong;
+}
+
+FogMode fogModeOf(const std::string& name) {
+  if (name == "linear") return FogMode::linear;
+  return name == "exp" ? FogMode::exp : FogMode::exp2;
+}
+
+void readFog(const JsonAt& fog, Atmosphere& atmosphere) {
+  fog.onlyKnows({"mode", "color", "start", "end", "density"});
+  atmosphere.fogMode = fogModeOf(fog.at("mode").oneOf({"linear", "exp", "exp2"}));
+  atmosphere.fogColor = vec3Or(fog, "color", atmosphere.fogColor, Range::atLeast(0.0));
+  atmosphere.fogStart = numberOr(fog, "start", atmosphere.fogStart, Range::atLeast(0.0));
+  atmosphere.fogEnd = numberOr(fog, "end", atmosphere.fogEnd, Range::atLeast(0.0));
+  atmosphere.fogDensity = numberOr(fog, "density", atmosphere.fogDensity, Range::atLeast(0.0));
+  if (atmosphere.fogMode == FogMode::linear && !(atmosphere.fogEnd > atmosphere.fogStart)) {
+    fog.fail(
+        fmt::format("linear fog needs an end beyond its start {:g}, has {:g}", atmosphere.fogStart, atmosphere.fogEnd));
+  }
+  fog.warn("is read, but fog is not simulated yet");
+}
+
+ShapeKind kindOf(const JsonAt& kind) {
+#define CL_KIND_ROW(value, name, ...) \
+  if (kind.string() == #name) return ShapeKind::name;
+  CL_SHAPE_KINDS(CL_KIND_ROW)
+#undef CL_KIND_ROW
+#define CL_KIND_NAME(value, name, ...) #name ", "
+  kind.fail("is none of " CL_SHAPE_KINDS(CL_KIND_NAME) "but '" + kind.string() + "'");
+#undef CL_KIND_NAME
+}
+
+}  // namespace
+
+void readClassicMaterial(const JsonAt& extension, Material& material) {
+  extension.onlyKnows({"model", "preset", "ambientFactor", "diffuseFactor", "specularFactor", "shininess",
+                       "transparency", "reflectionFactor"});
+  ClassicMaterial& classic = material.classic;
+  material.model = modelOf(extension.at("model").oneOf({"lambert", "phong", "blinnPhong"}));
+  if (const auto name = extension.find("preset")) {
+    const auto preset = findMaterialPreset(name->string());
+    if (!preset) name->fail("'" + name->string() + "' is not in the material table; there are " + presetNames());
+    classic.preset = name->string();
+    classic.ambientFactor = preset->ambient;
+    classic.diffuseFactor = preset->diffuse;
+    classic.specularFactor = preset->specular;
+    classic.shininess = preset->shininess;
+  }
+  classic.ambientFactor = vec3Or(extension, "ambientFactor", classic.ambientFactor, kUnit);
+  classic.diffuseFactor = vec3Or(extension, "diffuseFactor", classic.diffuseFactor, kUnit);
+  classic.specularFactor = vec3Or(extension, "specularFactor", classic.specularFactor, kUnit);
+  classic.shininess = number(extension, "shininess", classic.shininess, Range::atLeast(0.0));
+  classic.transparency = number(extension, "transparency", classic.transparency, kUnit);
+  classic.reflectionFactor = vec3Or(extension, "reflectionFactor", classic.reflectionFactor, kUnit);
+}
+
+ClassicLight readClassicLight(const JsonAt& extension) {
+  extension.onlyKnows({"attenuation", "spotExponent", "spotCutoff", "ambient", "diffuse", "specular"});
+  ClassicLight light;
+  light.ambient = vec3Or(extension, "ambient", light.ambient, Range::atLeast(0.0));
+  light.diffuse = vec3Or(extension, "diffuse", light.diffuse, Range::atLeast(0.0));
+  light.specular = vec3Or(extension, "specular", light.specular, Range::atLeast(0.0));
+  light.attenuation = vec3Or(extension, "attenuation", light.attenuation, Range::atLeast(0.0));
+  light.spotExponent = number(extension, "spotExponent", light.spotExponent, Range::between(0.0, kMaxSpotExponent));
+  light.spotCutoff = number(extension, "spotCutoff", light.spotCutoff, Range::between(0.0, 180.0));
+  if (light.spotCutoff > 90.0f && light.spotCutoff != 180.0f) {
+    extension.at("spotCutoff").fail(fmt::format("must be in [0, 90], or 180 for no cone, is {:g}", light.spotCutoff));
+  }
+  return light;
+}
+
+Atmosphere readAtmosphere(const JsonAt& extension) {
+  extension.onlyKnows({"ambient", "background", "fog"});
+  Atmosphere atmosphere;
+  atmosphere.ambient = vec3Or(extension, "ambient", atmosphere.ambient, Range::atLeast(0.0));
+  atmosphere.background = vec3Or(extension, "background", atmosphere.background, Range::atLeast(0.0));
+  if (const auto fog = extension.find("fog")) readFog(*fog, atmosphere);
+  return atmosphere;
+}
+
+void checkDisplacement(const JsonAt& extension, std::size_t textureCount) {
+  extension.onlyKnows({"displacementTexture", "scale", "bias"});
+  const JsonAt texture = extension.at("displacementTexture");
+  texture.at("index").reference(textureCount, "texture");
+  integerOr(texture, "texCoord", 0);
+  numberOr(extension, "scale", 1.0);
+  numberOr(extension, "bias", 0.0);
+  extension.warn("is read, but displacement is not simulated yet");
+}
+
+NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount) {
+  extension.onlyKnows({"kind", "radius", "height", "size", "tubeRadius", "material"});
+  NodeShape shape;
+  shape.kind = kindOf(extension.at("kind"));
+  shape.material = referenceOr(extension, "material", materialCount, "material");
+  // Lengths that the kind does not have are checked all the same, so that a typing error shows.
+  const float radius = number(extension, "radius", 0.0f, Range::above(0.0));
+  const float height = number(extension, "height", 0.0f, Range::above(0.0));
+  const float tube = number(extension, "tubeRadius", 0.0f, Range::above(0.0));
+  const glm::vec3 size = vec3Or(extension, "size", glm::vec3(0.0f), Range::above(0.0));
+  const bool isRound = shape.kind != ShapeKind::plane && shape.kind != ShapeKind::box;
+  if (isRound) extension.at("radius");
+  switch (shape.kind) {
+    case ShapeKind::plane:
+      break;
+    case ShapeKind::box:
+      extension.at("size");
+      shape.params = {size, 0.0f};
+      break;
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      extension.at("height");
+      shape.params = {radius, height, 0.0f, 0.0f};
+      break;
+    case ShapeKind::torus:
+      extension.at("tubeRadius");
+      shape.params = {radius, tube, 0.0f, 0.0f};
+      break;
+    case ShapeKind::sphere:
+    case ShapeKind::disk:
+      shape.params = {radius, 0.0f, 0.0f, 0.0f};
+      break;
+  }
+  return shape;
+}
+
+}  // namespace crosslight::gltf

@@ -1,0 +1,196 @@
+// The way from a file to a Scene, step by step, and the last net under it: whatever a library throws becomes an
+// InputError with the file's name.
+#include <tiny_gltf.h>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <new>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "scene/gltf_build.h"
+#include "scene/load.h"
+#include "scene/shape_mesh.h"
+
+namespace crosslight {
+namespace {
+
+using namespace gltf;
+
+// -1: the file has no scenes, all its nodes are drawn.
+int chooseScene(const tinygltf::Model& model, const Document& document, const std::string& wanted) {
+  if (!wanted.empty()) {
+    for (std::size_t i = 0; i < model.scenes.size(); ++i) {
+      if (model.scenes[i].name == wanted) return static_cast<int>(i);
+    }
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    const bool isNumber = error == std::errc() && end == wanted.data() + wanted.size();
+    if (isNumber && index < model.scenes.size()) return static_cast<int>(index);
+    std::string known;
+    for (std::size_t i = 0; i < model.scenes.size(); ++i) {
+      known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, model.scenes[i].name);
+    }
+    throw UsageError(
+        fmt::format("there is no scene '{}'; {} has {}", wanted, document.fileName, known.empty() ? "none" : known));
+  }
+  if (model.scenes.empty()) {
+    logInfo(document.fileName + ": has no scene, all its nodes are drawn");
+    return -1;
+  }
+  return model.defaultScene >= 0 ? model.defaultScene : 0;
+}
+
+// Above this many vertices times instances the corners of the meshes' boxes stand for their vertices.
+constexpr std::uint64_t kExactBoundsWork = 50'000'000;
+
+void addTransformed(DBounds& bounds, const DBounds& box, const glm::dmat4& worldFromObject) {
+  if (box.empty()) return;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p(corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                       corner & 4 ? box.upper.z : box.lower.z, 1.0);
+    bounds.add(glm::dvec3(worldFromObject * p));
+  }
+}
+
+DBounds boundsOf(const Mesh& mesh) {
+  DBounds bounds;
+  for (const Primitive& primitive : mesh.primitives) {
+    for (const std::uint32_t index : primitive.indices) bounds.add(glm::dvec3(primitive.positions[index]));
+  }
+  return bounds;
+}
+
+void fillBoundsAndCounts(Scene& scene) {
+  std::vector<DBounds> boxes;
+  std::vector<std::uint64_t> triangles(scene.meshes.size(), 0);
+  std::vector<std::uint64_t> vertices(scene.meshes.size(), 0);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    boxes.push_back(boundsOf(scene.meshes[m]));
+    for (const Primitive& primitive : scene.meshes[m].primitives) {
+      triangles[m] += primitive.indices.size() / 3;
+      vertices[m] += primitive.positions.size();
+    }
+  }
+  std::uint64_t corners = 0;
+  for (const MeshInstance& instance : scene.instances) {
+    const auto mesh = static_cast<std::size_t>(instance.mesh);
+    scene.stats.triangles += triangles[mesh];
+    scene.stats.vertices += vertices[mesh];
+    corners += triangles[mesh] * 3;
+  }
+  for (const MeshInstance& instance : scene.instances) {
+    const auto mesh = static_cast<std::size_t>(instance.mesh);
+    if (corners > kExactBoundsWork) {
+      addTransformed(scene.worldBounds, boxes[mesh], instance.worldFromObject);
+      continue;
+    }
+    for (const Primitive& primitive : scene.meshes[mesh].primitives) {
+      for (const std::uint32_t index : primitive.indices) {
+        const glm::dvec4 p(glm::dvec3(primitive.positions[index]), 1.0);
+        scene.worldBounds.add(glm::dvec3(instance.worldFromObject * p));
+      }
+    }
+  }
+  for (const ShapeInstance& shape : scene.shapes) {
+    if (const auto box = shapeBounds(shape.kind, shape.params))
+      addTransformed(scene.worldBounds, *box, shape.worldFromObject);
+  }
+}
+
+void checkExtent(const Scene& scene, const Document& document) {
+  if (scene.worldBounds.empty()) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double largest = std::max(std::abs(scene.worldBounds.lower[axis]), std::abs(scene.worldBounds.upper[axis]));
+    if (!(largest <= kLargestCoordinate)) {
+      document.root().fail(
+          fmt::format("the scene reaches out to {:g}, the limit is {:g}", largest, kLargestCoordinate));
+    }
+  }
+}
+
+// A primitive or shape without a material refers to one behind the file's last.
+void addDefaultMaterial(Scene& scene) {
+  const int needed = static_cast<int>(scene.materials.size());
+  bool used = false;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives) used |= primitive.material == needed;
+  }
+  for (const ShapeInstance& shape : scene.shapes) used |= shape.material == needed;
+  if (!used) return;
+  scene.materials.emplace_back();
+  scene.materials.back().name = "default";
+}
+
+void addDefaults(Scene& scene, const Document& document) {
+  addDefaultMaterial(scene);
+  if (scene.cameras.empty()) {
+    scene.cameras.push_back(frameBounds(scene.worldBounds));
+    scene.defaultCamera = true;
+    logVerbose(document.fileName + ": has no camera, one frames the scene's bounds");
+  }
+  if (scene.lights.empty()) {
+    scene.lights.push_back(headlight(scene.cameras[0]));
+    scene.defaultLight = true;
+    logInfo(document.fileName + ": has no light, a headlight of pi lux shines along the view of camera '" +
+            scene.cameras[0].name + "'");
+  }
+}
+
+void fillStats(const tinygltf::Model& model, const Document& document, Scene& scene) {
+  scene.stats.fileBytes = document.fileBytes;
+  scene.stats.animations = static_cast<std::uint32_t>(model.animations.size());
+  scene.stats.extensionsUsed = model.extensionsUsed;
+  for (const tinygltf::Scene& entry : model.scenes) scene.stats.sceneNames.push_back(entry.name);
+}
+
+Scene load(const std::filesystem::path& file, const LoadOptions& options) {
+  Document document(file, options);
+  validateDocument(document);
+  loadResources(document);
+  decodeMeshopt(document);
+  decodeDraco(document);
+  const ModelPointer model = parseModel(document);
+  const Source source{document, *model};
+
+  Scene scene;
+  scene.source = file;
+  const int sceneIndex = chooseScene(*model, document, options.scene);
+  buildMaterials(source, scene);
+  std::vector<NodePose> poses = restPose(source);
+  if (options.animate) animate(source, options.timeSeconds, poses);
+  buildNodes(source, poses, sceneIndex, scene);
+  if (sceneIndex >= 0) {
+    const auto index = static_cast<std::size_t>(sceneIndex);
+    scene.name = model->scenes[index].name;
+    const auto atmosphere = document.entry("scenes", index).extension("CROSSLIGHT_scene_atmosphere");
+    if (atmosphere) scene.atmosphere = readAtmosphere(*atmosphere);
+  }
+  fillStats(*model, document, scene);
+  fillBoundsAndCounts(scene);
+  checkExtent(scene, document);
+  addDefaults(scene, document);
+  return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& file, const LoadOptions& options) {
+  if (!std::isfinite(options.timeSeconds))
+    throw UsageError("the time of an animation must be a finite number of seconds");
+  try {
+    return load(file, options);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string(), "needs more memory than there is");
+  } catch (const std::length_error&) {
+    throw InputError(file.string(), "needs more memory than there can be");
+  } catch (const std::exception& error) {
+    throw InputError(file.string(), std::string("cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace crosslight

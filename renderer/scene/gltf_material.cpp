@@ -1,0 +1,169 @@
+// Materials with their textures, and those images that they use.
+#include <tiny_gltf.h>
+
+#include <fmt/format.h>
+
+#include "scene/gltf_build.h"
+#include "scene/gltf_image.h"
+
+namespace crosslight::gltf {
+namespace {
+
+constexpr Range kUnit{0.0, 1.0, false};
+
+Wrap wrapOf(int value) {
+  if (value == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clampToEdge;
+  return value == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirroredRepeat : Wrap::repeat;
+}
+
+void readTextureTransform(const JsonAt& info, TextureUse& use) {
+  const auto transform = info.extension("KHR_texture_transform");
+  if (!transform) return;
+  if (const auto offset = transform->find("offset")) {
+    const std::vector<double> values = offset->numbers(2);
+    use.offset = {static_cast<float>(values[0]), static_cast<float>(values[1])};
+  }
+  if (const auto scale = transform->find("scale")) {
+    const std::vector<double> values = scale->numbers(2);
+    use.scale = {static_cast<float>(values[0]), static_cast<float>(values[1])};
+  }
+  use.rotation = static_cast<float>(numberOr(*transform, "rotation", 0.0));
+  use.texCoord = static_cast<int>(integerOr(*transform, "texCoord", use.texCoord, std::numeric_limits<int>::max()));
+}
+
+class MaterialBuilder {
+ public:
+  MaterialBuilder(const Source& source, Scene& scene)
+      : source_(source), scene_(scene), sceneImage_(source.document.count("images"), -1) {}
+
+  Material build(std::size_t index) {
+    const tinygltf::Material& in = source_.model.materials[index];
+    const JsonAt at = source_.document.entry("materials", index);
+    Material out;
+    out.name = in.name;
+    readCore(in, out);
+    readTextures(in, at, out);
+    readExtensions(at, out);
+    return out;
+  }
+
+ private:
+  static void readCore(const tinygltf::Material& in, Material& out) {
+    const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
+    for (std::size_t i = 0; i < 4; ++i)
+      out.baseColorFactor[static_cast<int>(i)] = static_cast<float>(pbr.baseColorFactor[i]);
+    out.metallicFactor = static_cast<float>(pbr.metallicFactor);
+    out.perceptualRoughnessFactor = static_cast<float>(pbr.roughnessFactor);
+    for (std::size_t i = 0; i < 3; ++i)
+      out.emissiveFactor[static_cast<int>(i)] = static_cast<float>(in.emissiveFactor[i]);
+    out.alphaMode = in.alphaMode == "MASK"    ? AlphaMode::mask
+                    : in.alphaMode == "BLEND" ? AlphaMode::blend
+                                              : AlphaMode::opaque;
+    out.alphaCutoff = static_cast<float>(in.alphaCutoff);
+    out.doubleSided = in.doubleSided;
+    out.normalScale = static_cast<float>(in.normalTexture.scale);
+    out.occlusionStrength = static_cast<float>(in.occlusionTexture.strength);
+  }
+
+  void readTextures(const tinygltf::Material& in, const JsonAt& at, Material& out) {
+    const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
+    if (const auto pbrAt = at.find("pbrMetallicRoughness")) {
+      out.baseColorTexture =
+          texture(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, *pbrAt, "baseColorTexture");
+      out.metallicRoughnessTexture = texture(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord,
+                                             *pbrAt, "metallicRoughnessTexture");
+    }
+    out.normalTexture = texture(in.normalTexture.index, in.normalTexture.texCoord, at, "normalTexture");
+    out.occlusionTexture = texture(in.occlusionTexture.index, in.occlusionTexture.texCoord, at, "occlusionTexture");
+    out.emissiveTexture = texture(in.emissiveTexture.index, in.emissiveTexture.texCoord, at, "emissiveTexture");
+  }
+
+  TextureUse texture(int index, int texCoord, const JsonAt& owner, const char* key) {
+    TextureUse use;
+    if (index < 0) return use;
+    const JsonAt info = owner.at(key);
+    use.texCoord = texCoord;
+    readTextureTransform(info, use);
+    const tinygltf::Texture& texture = source_.model.textures[static_cast<std::size_t>(index)];
+    if (texture.source < 0) {
+      info.warn("its texture has no image that is supported and is left out");
+      return use;
+    }
+    if (use.texCoord > 1) {
+      info.warn(fmt::format("reads TEXCOORD_{}; only 0 and 1 are supported, the texture is left out", use.texCoord));
+      return use;
+    }
+    if (texture.sampler >= 0) {
+      // Minification filters choose mipmaps; every technique reads level 0 for now.
+      const tinygltf::Sampler& sampler = source_.model.samplers[static_cast<std::size_t>(texture.sampler)];
+      use.wrapU = wrapOf(sampler.wrapS);
+      use.wrapV = wrapOf(sampler.wrapT);
+      use.filter = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::nearest : Filter::linear;
+    }
+    use.image = image(static_cast<std::size_t>(texture.source));
+    return use;
+  }
+
+  int image(std::size_t index) {
+    int& known = sceneImage_[index];
+    if (known >= 0) return known;
+    const JsonAt at = source_.document.entry("images", index);
+    TextureImage decoded = decodeImage(source_.document.images[index], at, source_.document.budget);
+    decoded.name = stringOr(at, "name", "");
+    known = static_cast<int>(scene_.images.size());
+    scene_.images.push_back(std::move(decoded));
+    return known;
+  }
+
+  void readExtensions(const JsonAt& at, Material& out) const {
+    if (const auto strength = at.extension("KHR_materials_emissive_strength")) {
+      out.emissiveStrength = static_cast<float>(numberOr(*strength, "emissiveStrength", 1.0, Range::atLeast(0.0)));
+    }
+    if (const auto ior = at.extension("KHR_materials_ior")) readIor(*ior, out);
+    if (const auto transmission = at.extension("KHR_materials_transmission")) {
+      out.transmissionFactor = static_cast<float>(numberOr(*transmission, "transmissionFactor", 0.0, kUnit));
+      ignoreTexture(*transmission, "transmissionTexture");
+    }
+    if (const auto volume = at.extension("KHR_materials_volume")) readVolume(*volume, out);
+    if (at.extension("KHR_materials_unlit")) out.model = IlluminationModel::unlit;
+    // Last: its fallback for other viewers may be anything, unlit too.
+    if (const auto classic = at.extension("CROSSLIGHT_materials_classic")) readClassicMaterial(*classic, out);
+    if (const auto displacement = at.extension("CROSSLIGHT_materials_displacement")) {
+      checkDisplacement(*displacement, source_.document.count("textures"));
+    }
+  }
+
+  static void readIor(const JsonAt& ior, Material& out) {
+    const double value = numberOr(ior, "ior", 1.5, Range::atLeast(0.0));
+    if (value != 0.0 && value < 1.0) ior.at("ior").fail(fmt::format("must be 0 or at least 1, is {:g}", value));
+    out.indexOfRefraction = static_cast<float>(value);
+    out.hasIor = true;
+  }
+
+  static void readVolume(const JsonAt& volume, Material& out) {
+    // A thickness of 0, the default, means a thin wall (KHR_materials_volume, "Properties").
+    out.hasVolume = numberOr(volume, "thicknessFactor", 0.0, Range::atLeast(0.0)) > 0.0;
+    out.attenuationColor = vec3Or(volume, "attenuationColor", out.attenuationColor, kUnit);
+    if (const auto distance = volume.find("attenuationDistance")) {
+      out.attenuationDistance = static_cast<float>(distance->number(Range::above(0.0)));
+    }
+    ignoreTexture(volume, "thicknessTexture");
+  }
+
+  static void ignoreTexture(const JsonAt& extension, const char* key) {
+    if (const auto texture = extension.find(key)) texture->warn("is not supported yet; the factor alone counts");
+  }
+
+  const Source& source_;
+  Scene& scene_;
+  std::vector<int> sceneImage_;  // by image of the file; -1: not decoded yet
+};
+
+}  // namespace
+
+void buildMaterials(const Source& source, Scene& scene) {
+  MaterialBuilder builder(source, scene);
+  for (std::size_t i = 0; i < source.model.materials.size(); ++i) scene.materials.push_back(builder.build(i));
+}
+
+}  // namespace crosslight::gltf
