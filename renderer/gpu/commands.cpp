@@ -314,12 +314,12 @@ void Commands::barrier() {
 
 void Commands::beginSpan(std::string_view name) {
   CL_CHECK(impl_->recording);
-  guarded("timing a span", [&] { impl_->timer.begin(*impl_->device, impl_->commands, name); });
+  guarded("timing a span", [&] { impl_->timer.begin(*impl_->device, impl_->commands, name, impl_->drawing); });
 }
 
 void Commands::endSpan() {
   CL_CHECK(impl_->recording);
-  impl_->timer.end(impl_->commands);
+  impl_->timer.end(*impl_->device, impl_->commands, impl_->drawing);
 }
 
 void Commands::submitAndWait(double timeoutSeconds) {

@@ -26,6 +26,9 @@ struct DeviceInfo {
   std::uint64_t maxTexelBufferElements = 0;
   std::uint32_t maxImageSize = 0;  // of a 2D color attachment
   std::uint32_t maxWorkGroupCountX = 0;
+  // Passes through all loops together, nested ones included, after which a shader invocation is cut short without a
+  // word; 0: no such limit. Vulkan has no such limit, llvmpipe has.
+  std::uint32_t maxLoopPasses = 0;
   std::uint64_t deviceLocalBytes = 0;
   std::vector<std::uint32_t> msaaCounts;  // of RGBA32F color and D32F depth together, ascending, 1 included
 };

@@ -23,6 +23,9 @@ namespace {
   X(shaderDemoteToHelperInvocation, "discards fragments")  \
   X(shaderTerminateInvocation, "discards fragments")
 
+// LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's src/gallium/auxiliary/gallivm/lp_bld_limits.h; a test of this room measures it.
+constexpr std::uint32_t kLlvmpipeLoopPasses = 65535;
+
 const char* typeName(vk::PhysicalDeviceType type) {
   switch (type) {
     case vk::PhysicalDeviceType::eDiscreteGpu:
@@ -104,6 +107,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
   const auto& driver = chain.get<vk::PhysicalDeviceVulkan12Properties>();
   info.driverName = driver.driverName.data();
   info.driverInfo = driver.driverInfo.data();
+  if (driver.driverID == vk::DriverId::eMesaLlvmpipe) info.maxLoopPasses = kLlvmpipeLoopPasses;
   info.subgroupSize = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
   info.hasFloat64 = physical.getFeatures().shaderFloat64 == VK_TRUE;
   return info;

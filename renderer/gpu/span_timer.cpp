@@ -14,13 +14,20 @@ void SpanTimer::restart() {
 }
 
 // Both ends wait for all work before them, so that a span does not count the tail of the one before.
-void SpanTimer::write(const vk::raii::CommandBuffer& commands, std::uint32_t query) const {
+void SpanTimer::write(const DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::uint32_t query,
+                      bool drawing) const {
   const std::size_t span = recorded_.size() - 1;
   const auto first = static_cast<std::uint32_t>(2 * (span % kSpansPerPool));
+  // llvmpipe runs a dispatch at once but takes timestamps with the next flush of its rasterizer, so both ends of a span
+  // would get the same time (seen with Mesa 22.3.6). A barrier flushes; inside a rendering pass there can be none.
+  const bool flush = device.info.isSoftware && !drawing;
+  if (flush) fullBarrier(commands);
   commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pools_[span / kSpansPerPool], first + query);
+  if (flush) fullBarrier(commands);
 }
 
-void SpanTimer::begin(DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::string_view name) {
+void SpanTimer::begin(DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::string_view name,
+                      bool drawing) {
   CL_CHECK(!open_);
   open_ = true;
   recorded_.push_back({std::string(name), device.info.timestampPeriodNs > 0});
@@ -30,13 +37,13 @@ void SpanTimer::begin(DeviceImpl& device, const vk::raii::CommandBuffer& command
     const vk::QueryPoolCreateInfo info({}, vk::QueryType::eTimestamp, 2 * kSpansPerPool);
     pools_.emplace_back(device.device, info).reset(0, 2 * kSpansPerPool);
   }
-  write(commands, 0);
+  write(device, commands, 0, drawing);
 }
 
-void SpanTimer::end(const vk::raii::CommandBuffer& commands) {
+void SpanTimer::end(const DeviceImpl& device, const vk::raii::CommandBuffer& commands, bool drawing) {
   CL_CHECK(open_);
   open_ = false;
-  if (timed()) write(commands, 1);
+  if (timed()) write(device, commands, 1, drawing);
 }
 
 void SpanTimer::collect(const DeviceImpl& device) {

@@ -12,8 +12,8 @@ namespace crosslight::gpu {
 class SpanTimer {
  public:
   void restart();  // forgets all spans of the last recording; its queries must not be in use
-  void begin(DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::string_view name);
-  void end(const vk::raii::CommandBuffer& commands);
+  void begin(DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::string_view name, bool drawing);
+  void end(const DeviceImpl& device, const vk::raii::CommandBuffer& commands, bool drawing);
   void collect(const DeviceImpl& device);  // after the commands have run
   const std::vector<TimedSpan>& spans() const { return spans_; }
 
@@ -24,7 +24,8 @@ class SpanTimer {
     bool timed;
   };
   bool timed() const { return !recorded_.empty() && recorded_.back().timed; }
-  void write(const vk::raii::CommandBuffer& commands, std::uint32_t query) const;
+  void write(const DeviceImpl& device, const vk::raii::CommandBuffer& commands, std::uint32_t query,
+             bool drawing) const;
 
   std::vector<vk::raii::QueryPool> pools_;  // as many as the longest recording so far needed
   std::vector<Recorded> recorded_;

@@ -127,31 +127,62 @@ TEST_F(GpuTest, AMissingBarrierIsFoundBySynchronizationValidation) {
   const ScaleAdd job(device());
   Commands commands(device());
   commands.begin();
-  job.record(commands, 1);
-  job.record(commands, 2);  // writes `out` again, unordered
-  EXPECT_THAT(messageOf<InternalError>([&] { commands.submitAndWait(); }), HasSubstr("SYNC-HAZARD-WRITE-AFTER-WRITE"));
+  commands.fill(job.in, 0, job.in.sizeBytes(), 1);
+  job.record(commands, 1);  // reads `in`, unordered
+  EXPECT_THAT(messageOf<InternalError>([&] { commands.submitAndWait(); }), HasSubstr("SYNC-HAZARD-READ-AFTER-WRITE"));
+  EXPECT_THAT(messageOf<InternalError>([&] { device().throwOnValidationMessages(); }), HasSubstr("SYNC-HAZARD"));
 }
 
-TEST_F(GpuTest, SpansMeasureWorkAndSumByName) {
-  const BindingLayout layout(device(), {{0, BindingType::storageBuffer}}, 4);
-  const ComputePipeline pipeline(device(), layout, embeddedShader("spin.comp"), {});
-  const Buffer state(device(), "state", 4, useStorage);
-  BindingSet set(device(), layout);
-  set.set(0, state);
-  Commands commands(device());
-  commands.begin();
-  // The rounds of "short" are a hundredth of those of "long"; more spans than fit in one query pool.
-  const auto spin = [&](const char* name, std::uint32_t rounds) {
-    commands.beginSpan(name);
+struct SpinPush {
+  std::uint32_t outerRounds;
+  std::uint32_t innerRounds;
+};
+
+// spin.comp with its one word of state.
+struct Spin {
+  explicit Spin(const Device& device)
+      : layout(device, {{0, BindingType::storageBuffer}}, sizeof(SpinPush)),
+        pipeline(device, layout, embeddedShader("spin.comp"), {}),
+        state(Buffer::of(device, "state", std::vector<std::uint32_t>{1}, useStorage)),
+        set(device, layout) {
+    set.set(0, state);
+  }
+
+  void record(Commands& commands, SpinPush rounds, std::uint32_t groups = 1) const {
     commands.bind(pipeline, set);
     commands.push(rounds);
-    commands.dispatch(1);
+    commands.dispatch(groups);
+  }
+
+  static std::uint32_t expected(std::uint64_t rounds) {
+    std::uint32_t x = 1;
+    for (std::uint64_t i = 0; i < rounds; ++i) x = x * 1664525u + (x >> 13);
+    return x;
+  }
+
+  BindingLayout layout;
+  ComputePipeline pipeline;
+  Buffer state;
+  BindingSet set;
+};
+
+TEST_F(GpuTest, SpansMeasureWorkAndSumByName) {
+  const Spin spin(device());
+  Commands commands(device());
+  commands.begin();
+  spin.record(commands, {1, 1});
+  commands.submitAndWait();  // llvmpipe compiles a shader when it first runs
+  EXPECT_TRUE(commands.spans().empty());
+  commands.begin();
+  const auto timed = [&](const char* name, SpinPush rounds) {
+    commands.beginSpan(name);
+    spin.record(commands, rounds);
     commands.endSpan();
     commands.barrier();
   };
-  spin("short", 20000);
-  spin("long", 2000000);
-  for (int i = 0; i < 300; ++i) spin("many", 1000);
+  timed("short", {1, 600});
+  timed("long", {100, 600});
+  for (int i = 0; i < 300; ++i) timed("many", {1, 10});  // more than one query pool holds
   commands.submitAndWait();
   const auto& spans = commands.spans();
   ASSERT_EQ(spans.size(), 3u);
@@ -166,9 +197,27 @@ TEST_F(GpuTest, SpansMeasureWorkAndSumByName) {
   }
   EXPECT_GT(spans[1].gpuMs, spans[0].gpuMs);
   EXPECT_LE(sum, commands.submitToIdleMs());
-  commands.begin();
-  commands.submitAndWait();
-  EXPECT_TRUE(commands.spans().empty());
+}
+
+TEST_F(GpuTest, LoopsRunToTheirEndBelowTheLimitThatTheDeviceStates) {
+  const auto run = [this](SpinPush rounds) {
+    const Spin spin(device());
+    Commands commands(device());
+    commands.begin();
+    spin.record(commands, rounds);
+    commands.submitAndWait();
+    return spin.state.readAll<std::uint32_t>().front();
+  };
+  const std::uint32_t limit = device().info().maxLoopPasses;
+  // 200 passes of the outer loop and 200 * 300 of the inner one, and the pass in which each loop ends.
+  EXPECT_EQ(run({200, 300}), Spin::expected(60000));
+  if (limit == 0) {
+    EXPECT_EQ(run({200, 3000}), Spin::expected(600000));
+  } else {
+    ASSERT_GT(limit, 200u + 200u * 301u);
+    EXPECT_NE(run({200, limit / 200 + 1}), Spin::expected(std::uint64_t{200} * (limit / 200 + 1)))
+        << "the driver has no such limit any more: take maxLoopPasses back";
+  }
 }
 
 TEST_F(GpuTest, MisuseIsABrokenInvariant) {
@@ -198,36 +247,26 @@ TEST_F(GpuTest, MisuseIsABrokenInvariant) {
 }
 
 TEST_F(GpuTest, PipelinesAndSetsOutliveTheirLayout) {
-  auto layout = std::make_unique<BindingLayout>(device(), std::vector<Binding>{{0, BindingType::storageBuffer}}, 4);
-  const ComputePipeline pipeline(device(), *layout, embeddedShader("spin.comp"), {});
-  BindingSet set(device(), *layout);
-  layout.reset();
-  const Buffer state = Buffer::of(device(), "state", std::vector<std::uint32_t>{2}, useStorage);
-  set.set(0, state);
+  Spin spin(device());
+  spin.layout = BindingLayout();
+  const Buffer other = Buffer::of(device(), "other", std::vector<std::uint32_t>{1}, useStorage);
+  spin.set.set(0, other);
   Commands commands(device());
   commands.begin();
-  commands.bind(pipeline, set);
-  commands.push(std::uint32_t{1});
-  commands.dispatch(1);
+  spin.record(commands, {1, 5});
   commands.submitAndWait();
-  EXPECT_EQ(state.readAll<std::uint32_t>().front(), 3u * 1664525u + (3u >> 13));
+  EXPECT_EQ(other.readAll<std::uint32_t>().front(), Spin::expected(5));
 }
 
 // In a process of its own: what a device may still use is kept, so the process must end while it runs.
 TEST_F(GpuTest, AWaitBeyondItsTimeIsAnErrorAndNothingIsFreed) {
-  const auto waitTooShort = [this] {
+  const auto waitTooShort = [] {
     const Device own = Device::open();
-    const BindingLayout layout(own, {{0, BindingType::storageBuffer}}, 4);
-    const ComputePipeline pipeline(own, layout, embeddedShader("spin.comp"), {});
     const std::string message = messageOf<InternalError>([&] {
-      const Buffer state(own, "state", 4, useStorage);
-      BindingSet set(own, layout);
-      set.set(0, state);
+      const Spin spin(own);
       Commands commands(own);
       commands.begin();
-      commands.bind(pipeline, set);
-      commands.push(std::uint32_t{2000000000});
-      commands.dispatch(1);
+      spin.record(commands, {100, 600}, 65535);  // some seconds of work
       commands.submitAndWait(0.001);
     });
     std::fputs(message.c_str(), stderr);
