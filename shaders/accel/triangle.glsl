@@ -46,8 +46,8 @@ TriangleHit hitTriangle(vec3 origin, RayShear ray, vec3 v0, vec3 v1, vec3 v2, fl
   result.t = t;
   result.b1 = v * inverse;
   result.b2 = w * inverse;
-  // The sign of det against that of the ray's main component tells the side: both flips mirror the projection.
-  result.back = (det > 0.0) == (ray.shear.z > 0.0);
+  // Seen along +z a counter-clockwise triangle has det > 0; seen along -z the projection is mirrored.
+  result.back = (det > 0.0) != (ray.shear.z > 0.0);
   return result;
 }
 #endif
