@@ -1,0 +1,56 @@
+// Law 1: what a scene does not call for changes no bit; what it does call for changes the picture when it is left out.
+#include "effects/effects.h"
+#include "support/render_fixture.h"
+
+namespace crosslight::testing {
+namespace {
+
+struct Case {
+  std::string scene;
+  Method method;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const std::string& name : allSceneNames()) {
+    if (name.rfind("feature/", 0) != 0) continue;
+    for (const Method method : {Method::phong, Method::whitted}) all.push_back({name, method});
+  }
+  return all;
+}
+
+class Specialized : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Specialized, imageEqualsTheFullOneBitForBit) {
+  const Scene scene = sceneNamed(GetParam().scene);
+  RenderSettings settings = settingsFor(GetParam().method, 48, 36);
+  const RenderResult specialized = render(device(), scene, settings);
+  settings.allEffects = true;
+  const RenderResult full = render(device(), scene, settings);
+  EXPECT_EQ(specialized.image.picture().samples, full.image.picture().samples);
+  for (const EffectRecord& effect : specialized.report.effects) EXPECT_FALSE(effect.reason.empty()) << effect.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Features, Specialized, ::testing::ValuesIn(cases()), [](const auto& i) {
+  std::string name = i.param.scene + "_" + nameOf(i.param.method);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+// The same seed gives the same bits, run after run.
+TEST(Determinism, secondRunGivesTheSameBits) {
+  const Scene scene = sceneNamed("showcase/spheres_checker");
+  RenderSettings settings = settingsFor(Method::whitted, 64, 48);
+  settings.spp = 4;
+  settings.seed = 7;
+  const RenderResult first = render(device(), scene, settings);
+  const RenderResult second = render(device(), scene, settings);
+  EXPECT_EQ(first.image.picture().samples, second.image.picture().samples);
+  EXPECT_EQ(first.report.rays, second.report.rays);
+  settings.seed = 8;
+  EXPECT_NE(render(device(), scene, settings).image.picture().samples, first.image.picture().samples);
+}
+
+}  // namespace
+}  // namespace crosslight::testing
