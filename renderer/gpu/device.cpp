@@ -61,19 +61,6 @@ std::filesystem::path cacheFileOf(const DeviceImpl& device) {
                               properties.driverVersion, uuid);
 }
 
-void openPipelineCache(DeviceImpl& device, bool onDisk) {
-  // lavapipe's pipeline cache is a stub that stores nothing, and Mesa keeps a shader cache of its own: no file for it.
-  if (onDisk && !device.info.isSoftware) device.cacheFile = cacheFileOf(device);
-  std::optional<std::vector<std::byte>> blob;
-  if (!device.cacheFile.empty()) blob = loadCache(device.cacheFile);
-  vk::PipelineCacheCreateInfo info;
-  if (blob) {
-    info.setInitialDataSize(blob->size()).setPInitialData(blob->data());
-    device.cacheHash = hashBytes(*blob);
-  }
-  device.pipelineCache = vk::raii::PipelineCache(device.device, info);
-}
-
 void savePipelineCacheOf(DeviceImpl& device) noexcept {
   if (device.cacheFile.empty()) return;
   try {
@@ -100,11 +87,24 @@ void openDevice(DeviceImpl& device, const DeviceOptions& options) {
       candidate.timestampBits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << candidate.timestampBits) - 1;
   readLimits(device);
   createDevice(device);
-  openPipelineCache(device, options.usePipelineCache);
+  // lavapipe's pipeline cache is a stub that stores nothing, and Mesa keeps a shader cache of its own: no file for it.
+  const bool onDisk = options.usePipelineCache && !device.info.isSoftware;
+  attachPipelineCache(device, onDisk ? cacheFileOf(device) : std::filesystem::path());
   device.openTimes.deviceMs = watch.lapMs();
 }
 
 }  // namespace
+
+void attachPipelineCache(DeviceImpl& device, const std::filesystem::path& file) {
+  device.cacheFile = file;
+  const auto blob = file.empty() ? std::nullopt : loadCache(file);
+  vk::PipelineCacheCreateInfo info;
+  if (blob) {
+    info.setInitialDataSize(blob->size()).setPInitialData(blob->data());
+    device.cacheHash = hashBytes(*blob);
+  }
+  device.pipelineCache = vk::raii::PipelineCache(device.device, info);
+}
 
 std::vector<DeviceReport> listDevices() {
   DeviceImpl device;

@@ -139,6 +139,10 @@ vk::Format formatOf(ImageFormat format);
 vk::SampleCountFlagBits sampleFlag(std::uint32_t samples);
 void checkSamples(const DeviceImpl& device, const std::string& what, std::uint32_t samples);  // DeviceError
 
+// Broken invariants of the caller, as InternalError.
+void checkRange(const BufferImpl& buffer, std::uint64_t offset, std::uint64_t bytes);
+void checkUse(const BufferImpl& buffer, std::uint32_t use);
+
 // Names an object in validation messages; nothing without validation.
 void nameObject(const DeviceImpl& device, vk::ObjectType type, std::uint64_t handle, const std::string& name);
 template <class Handle>
@@ -156,6 +160,9 @@ void submitAndWait(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fen
 void runOnce(DeviceImpl& device, std::string_view what,
              const std::function<void(const vk::raii::CommandBuffer&)>& record);
 void throwOnMessages(const DeviceImpl& device);
+
+// Reads the file, if it is whole, into the device's pipeline cache, and has savePipelineCache write there.
+void attachPipelineCache(DeviceImpl& device, const std::filesystem::path& file);
 
 // Turns the exception of Vulkan-Hpp that is in flight into one of the project's.
 [[noreturn]] void rethrowVulkanError(std::string_view what);

@@ -70,11 +70,6 @@ Owned<BufferImpl> makeBuffer(DeviceImpl& device, std::string name, std::uint64_t
   });
 }
 
-void checkRange(const BufferImpl& buffer, std::uint64_t offset, std::uint64_t bytes) {
-  CL_CHECK_LE(offset, buffer.sizeBytes);
-  CL_CHECK_LE(bytes, buffer.sizeBytes - offset);
-}
-
 Owned<BufferImpl> makeStaging(const BufferImpl& target, std::uint64_t bytes, std::uint32_t use) {
   return makeBuffer(*target.device, target.name + " (staging)", std::min(bytes, kStagingBytes), use);
 }

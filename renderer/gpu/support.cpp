@@ -25,6 +25,16 @@ void rethrowVulkanError(std::string_view what) {
   }
 }
 
+void checkRange(const BufferImpl& buffer, std::uint64_t offset, std::uint64_t bytes) {
+  CL_CHECK_LE(offset, buffer.sizeBytes);
+  CL_CHECK_LE(bytes, buffer.sizeBytes - offset);
+}
+
+void checkUse(const BufferImpl& buffer, std::uint32_t use) {
+  if ((buffer.use & use) != 0) return;
+  throw InternalError(fmt::format("broken invariant: buffer '{}' was not made for this use", buffer.name));
+}
+
 void abandon(void* impl) noexcept {
   // Never freed, and reachable, so that it does not count as a leak.
   static auto* graveyard = new std::vector<void*>;
@@ -57,6 +67,7 @@ void fullBarrier(const vk::raii::CommandBuffer& commands) {
 
 void submitAndWait(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fence, double timeoutSeconds,
                    std::string_view what) {
+  if (device.abandoned) throw InternalError("the device " + device.info.name + " hangs since an earlier wait");
   device.device.resetFences(fence);
   const vk::CommandBufferSubmitInfo buffer(commands);
   device.queue.submit2(vk::SubmitInfo2().setCommandBufferInfos(buffer), fence);

@@ -71,6 +71,18 @@ TEST_F(GpuTest, ConstantsPushesAndEveryKindOfBindingReachTheShader) {
   }
 }
 
+TEST_F(GpuTest, WorkOnMemoryThatTheHostCannotReachGivesTheSame) {
+  DeviceOptions options;
+  options.neverMap = true;
+  const Device unmapped = Device::open(options);
+  const ScaleAdd job(unmapped);
+  Commands commands(unmapped);
+  commands.begin();
+  job.record(commands, 5);
+  commands.submitAndWait();
+  EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(3, 5));
+}
+
 TEST_F(GpuTest, CommandsCanBeRecordedAgain) {
   const ScaleAdd job(device());
   Commands commands(device());

@@ -2,6 +2,8 @@
 #include <filesystem>
 
 #include "base/file.h"
+#include "gpu/cache_file.h"
+#include "gpu/impl.h"
 #include "gpu/selection.h"
 #include "gpu_fixture.h"
 
@@ -117,12 +119,45 @@ TEST_F(GpuTest, AnUnknownSelectorListsTheDevices) {
   EXPECT_THAT(messageOf<DeviceError>([&] { Device::open(options); }), HasSubstr(device().info().name));
 }
 
+std::filesystem::path freshFolder(const char* name) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / name;
+  std::filesystem::remove_all(folder);
+  return folder;
+}
+
 TEST_F(GpuTest, SoftwareDevicesLeaveNoPipelineCacheBehind) {
   if (!device().info().isSoftware) GTEST_SKIP() << "this device is hardware";
-  const auto folder = std::filesystem::path(testing::TempDir()) / "crosslight_gpu_cache";
+  const auto folder = freshFolder("crosslight_gpu_no_cache");
   const ScopedVariable cache("XDG_CACHE_HOME", folder.c_str());
   Device::open().savePipelineCache();
   EXPECT_FALSE(std::filesystem::exists(folder / "crosslight"));
+}
+
+// What hardware drivers get, forced upon whatever device there is.
+TEST_F(GpuTest, APipelineCacheIsWrittenReadAndReplacedWhenDamaged) {
+  const auto file = freshFolder("crosslight_gpu_cache") / "cache.bin";
+  const auto usePipelines = [&] {
+    Device own = Device::open();
+    attachPipelineCache(own.impl(), file);
+    const BindingLayout layout(own, {{0, BindingType::storageBuffer}}, 8);
+    const ComputePipeline pipeline(own, layout, embeddedShader("spin.comp"), {});
+  };
+  usePipelines();
+  const auto first = loadCache(file);
+  ASSERT_TRUE(first.has_value()) << "the closing device writes it";
+  EXPECT_GE(first->size(), 32u) << "VkPipelineCacheHeaderVersionOne at least";
+  usePipelines();
+  EXPECT_TRUE(loadCache(file).has_value());
+  std::filesystem::resize_file(file, 40);
+  usePipelines();
+  EXPECT_TRUE(loadCache(file).has_value()) << "the damaged file is replaced";
+  // Whole by our header, but no driver's blob: the driver has to ignore it.
+  const std::vector<std::byte> foreign(1000, std::byte{0x5a});
+  ASSERT_TRUE(saveCache(file, foreign));
+  usePipelines();
+  const auto last = loadCache(file);
+  ASSERT_TRUE(last.has_value());
+  EXPECT_NE(*last, foreign);
 }
 
 }  // namespace
