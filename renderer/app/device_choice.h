@@ -1,0 +1,29 @@
+// Which device a command uses, how it is said, and the list of all of them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/record.h"
+#include "gpu/device.h"
+
+namespace crosslight {
+
+class CommandLine;
+
+struct DeviceChoice {
+  std::string selector;
+  bool required = false;  // a software driver counts as no device unless the selector names one
+};
+
+// --device and --require-device.
+void addDeviceOptions(CommandLine& line, CLI::App& command, DeviceChoice& choice);
+
+// DeviceError with all refusals when there is none. Says so on stderr when the driver runs on the CPU.
+gpu::Device openDevice(const DeviceChoice& choice);
+
+std::string deviceTable(const std::vector<gpu::DeviceReport>& reports);
+Json deviceJson(const gpu::DeviceReport& report);
+
+}  // namespace crosslight

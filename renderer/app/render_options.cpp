@@ -1,0 +1,201 @@
+#include "app/render_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "app/command_line.h"
+#include "app/progress.h"
+#include "app/render_job.h"
+#include "app/set_keys.h"
+#include "app/suggest.h"
+#include "base/log.h"
+
+namespace crosslight {
+namespace {
+
+constexpr std::uint32_t kMostPixelsPerSide = 65536;  // no device draws more; memory ends long before
+constexpr std::uint32_t kMostSamples = 1u << 20;     // the film counts samples exactly in a float up to 2^24
+constexpr std::uint32_t kMostDepth = 64;             // a ray tree doubles per level: beyond, only mirrors halls differ
+constexpr double kMostStops = 64;                    // 2^64 takes any float radiance that matters to black or white
+
+const std::vector<std::string> kFilters = {"box", "tent", "gaussian"};
+const std::vector<std::string> kToneMaps = {"none", "clamp", "reinhard", "neutral"};
+const std::vector<std::string> kMsaaCounts = {"1", "2", "4", "8"};
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names;
+  for (const Method method : allMethods()) names.push_back(nameOf(method));
+  return names;
+}
+
+std::vector<std::string> aovNames() { return {std::begin(kAovNames), std::end(kAovNames)}; }
+
+std::size_t indexIn(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void warnUnheeded(const std::string& what, const RenderOptions& options) {
+  logWarning(what + " has no effect on the method " + options.method);
+}
+
+void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.choice(command, "-m,--method", o.method, methodNames(), "How the image is made")->group("Picture");
+  line.text(command, "-r,--resolution", o.resolution, "WxH", "Size in pixels, 1 to 65536 each")->group("Picture");
+  line.text(command, "--camera", o.camera, "NAME|N", "The camera, by name or number; without it the first")
+      ->group("Picture");
+  line.text(command, "--scene", o.sceneName, "NAME|N", "The scene of the file; without it the file's default")
+      ->group("Picture");
+  o.time = line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
+                       "Evaluate animations at this time; without it nodes stay in their rest pose")
+               ->group("Picture");
+  line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
+            {ValueKind::keyValue, allSetPairs()})
+      ->group("Picture");
+  line.choice(command, "--effects", o.effects, {"auto", "all"},
+              "Compile and run what the scene calls for, or everything; the image is the same")
+      ->group("Picture");
+}
+
+void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.whole(command, "--spp", o.spp, "N", 1, kMostSamples,
+             "Samples per pixel, at the same places for raster and rays; 1 is the pixel's center")
+      ->group("Sampling");
+  line.choice(command, "--filter", o.filter, kFilters, "How samples are weighted into a pixel")->group("Sampling");
+  o.msaaGiven = line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
+                    ->group("Sampling");
+  o.maxDepthGiven = line.whole(command, "--max-depth", o.maxDepth, "N", 0, kMostDepth,
+                               "Ray segments after the primary one (whitted); 0 is direct light only")
+                        ->group("Sampling");
+  line.whole(command, "--seed", o.seed, "N", 0, std::numeric_limits<std::uint64_t>::max(),
+             "Seed of all random numbers; the same seed gives the same bits")
+      ->group("Sampling");
+}
+
+void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.text(command, "-o,--output", o.output, "OUT",
+            "The image file; its extension .png, .exr, .hdr or .pfm decides the format", ValueKind::file)
+      ->group("Output");
+  line.text(command, "--aov", o.aovs, "LIST",
+            "Layers beside the picture, with commas between, or 'all': " + joined(aovNames(), ", ") + ". Needs .exr")
+      ->group("Output");
+  line.number(command, "--exposure", o.exposureStops, "STOPS", -kMostStops, kMostStops,
+              "Multiply the picture by 2^STOPS")
+      ->group("Output");
+  line.choice(command, "--tone-map", o.toneMap, kToneMaps, "How PNG maps radiance to what a display can show")
+      ->group("Output");
+  line.flag(command, "--alpha", o.alpha, "PNG with the coverage as its alpha channel")->group("Output");
+  line.flag(command, "--allow-nonfinite", o.allowNonfinite,
+            "Write the image even when it holds NaN or infinity, which else ends with exit code 5")
+      ->group("Output");
+  line.text(command, "--json", o.json, "FILE|-", "Write a JSON record of all that was measured; '-' is standard output",
+            ValueKind::file)
+      ->group("Output");
+}
+
+}  // namespace
+
+void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.text(command, "SCENE", o.scene, "SCENE", "A glTF 2.0 file, .gltf or .glb", ValueKind::file);
+  addOutputOptions(line, command, o);
+  addPictureOptions(line, command, o);
+  addSamplingOptions(line, command, o);
+  addDeviceOptions(line, command, o.device);
+  line.flag(command, "--list-devices", o.listDevices, "List the devices instead of drawing")->group("Device");
+  line.choice(command, "--progress", o.progress, progressNames(), "Progress on stderr; a bar on a terminal only")
+      ->group("Messages");
+}
+
+RenderSettings checkedSettings(const RenderOptions& o) {
+  if (o.scene.empty()) throw UsageError("no scene given: crosslight render SCENE -o OUT.png");
+  if (o.output.empty()) throw UsageError("no output given: add -o OUT.png (or .exr, .hdr, .pfm)");
+  RenderSettings settings;
+  settings.method = methodOf(o.method);
+  const Resolution resolution = resolutionOf(o.resolution);
+  settings.width = resolution.width;
+  settings.height = resolution.height;
+  settings.spp = o.spp;
+  settings.filter = static_cast<PixelFilter>(indexIn(kFilters, o.filter));
+  settings.msaa = 1u << indexIn(kMsaaCounts, o.msaa);
+  settings.maxDepth = o.maxDepth;
+  settings.seed = o.seed;
+  settings.allEffects = o.effects == "all";
+  settings.allowNonfinite = o.allowNonfinite;
+  for (const std::string& pair : o.set) {
+    const SetKey& key = applySet(pair, settings);
+    const auto& heed = key.methods;
+    if (!heed.empty() && std::find(heed.begin(), heed.end(), settings.method) == heed.end()) {
+      warnUnheeded("--set " + std::string(key.key), o);
+    }
+  }
+  const bool rays = settings.method == Method::whitted;
+  if (rays && o.msaaGiven != nullptr && o.msaaGiven->count() > 0) warnUnheeded("--msaa", o);
+  if (!rays && o.maxDepthGiven != nullptr && o.maxDepthGiven->count() > 0) warnUnheeded("--max-depth", o);
+  settings.aovs = aovsOf(o.aovs);
+  if (!settings.aovs.empty() && imageFormatOf(o.output) != ImageFormat::exr) {
+    throw UsageError("--aov needs an EXR file, the only format with layers: -o " +
+                     std::filesystem::path(o.output).replace_extension(".exr").string());
+  }
+  return settings;
+}
+
+DisplayTransform checkedDisplay(const RenderOptions& o) {
+  DisplayTransform display;
+  display.toneMap = static_cast<ToneMap>(indexIn(kToneMaps, o.toneMap));
+  display.exposureStops = static_cast<float>(o.exposureStops);
+  display.withAlpha = o.alpha;
+  const ImageFormat format = imageFormatOf(o.output);
+  if (o.alpha && format != ImageFormat::png) warnUnheeded("--alpha on a file that is no PNG", o);
+  return display;
+}
+
+LoadOptions loadOptionsOf(const RenderOptions& o) {
+  LoadOptions load;
+  load.scene = o.sceneName;
+  load.animate = o.time != nullptr && o.time->count() > 0;
+  load.timeSeconds = o.timeSeconds;
+  return load;
+}
+
+Resolution resolutionOf(const std::string& text) {
+  const auto refuse = [&text]() -> UsageError {
+    return UsageError(
+        fmt::format("--resolution: '{}' is not WIDTHxHEIGHT with whole numbers from 1 to {}, e.g. 640x480", text,
+                    kMostPixelsPerSide));
+  };
+  const auto side = [&refuse](const std::string& digits) {
+    std::uint32_t value = 0;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || stop != digits.data() + digits.size()) throw refuse();
+    if (value < 1 || value > kMostPixelsPerSide) throw refuse();
+    return value;
+  };
+  const std::size_t cross = text.find_first_of("xX");
+  if (cross == std::string::npos) throw refuse();
+  return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
+}
+
+std::vector<std::string> aovsOf(const std::string& list) {
+  const std::vector<std::string> known = aovNames();
+  if (list == "all") return known;
+  std::vector<bool> wanted(known.size(), false);
+  std::size_t begin = 0;
+  while (begin < list.size()) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, end - begin);
+    const std::size_t index = indexIn(known, name);
+    if (index == known.size())
+      throw UsageError("--aov: " + unknownWord("AOV", name, known) + " 'all' means all of them");
+    wanted[index] = true;
+    begin = end + 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (wanted[i]) names.push_back(known[i]);
+  }
+  return names;
+}
+
+}  // namespace crosslight

@@ -1,0 +1,64 @@
+// The options of `crosslight render`: declared, checked, and turned into the settings of a render.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/device_choice.h"
+#include "image/image_io.h"
+#include "scene/load.h"
+#include "scene/settings.h"
+
+namespace crosslight {
+
+class CommandLine;
+
+// As on the command line.
+struct RenderOptions {
+  std::string scene;
+  std::string output;
+  std::string method = "phong";
+  std::string resolution = "512x512";
+  std::string camera;
+  std::string sceneName;
+  double timeSeconds = 0;
+  CLI::Option* time = nullptr;  // was it given?
+  std::uint32_t spp = 1;
+  std::string filter = "box";
+  std::string msaa = "1";
+  CLI::Option* msaaGiven = nullptr;
+  std::uint32_t maxDepth = 5;
+  CLI::Option* maxDepthGiven = nullptr;
+  std::uint64_t seed = 0;
+  std::vector<std::string> set;
+  std::string effects = "auto";
+  std::string aovs;
+  double exposureStops = 0;
+  std::string toneMap = "clamp";
+  bool alpha = false;
+  bool allowNonfinite = false;
+  std::string json;
+  std::string progress = "auto";
+  DeviceChoice device;
+  bool listDevices = false;
+};
+
+void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& options);
+
+// UsageError on what cannot be meant; a warning on options that the method does not heed. The camera is left at 0: its
+// name needs the scene.
+RenderSettings checkedSettings(const RenderOptions& options);
+DisplayTransform checkedDisplay(const RenderOptions& options);
+LoadOptions loadOptionsOf(const RenderOptions& options);
+
+// "640x480"; UsageError with the rule otherwise.
+struct Resolution {
+  std::uint32_t width;
+  std::uint32_t height;
+};
+Resolution resolutionOf(const std::string& text);
+
+// "depth,normal" or "all", in the order of kAovNames, each once.
+std::vector<std::string> aovsOf(const std::string& list);
+
+}  // namespace crosslight

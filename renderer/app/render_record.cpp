@@ -1,0 +1,83 @@
+#include "app/render_record.h"
+
+#include <fmt/format.h>
+
+#include "app/scene_summary.h"
+#include "app/suggest.h"
+#include "app/version.h"
+
+namespace crosslight {
+namespace {
+
+Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
+  return {{"width", s.width},
+          {"height", s.height},
+          {"camera", s.camera},
+          {"timeSeconds", o.time != nullptr && o.time->count() > 0 ? Json(o.timeSeconds) : Json(nullptr)},
+          {"spp", s.spp},
+          {"filter", o.filter},
+          {"msaa", s.msaa},
+          {"maxDepth", s.maxDepth},
+          {"set", o.set},
+          {"effects", o.effects},
+          {"exposureStops", o.exposureStops},
+          {"toneMap", o.toneMap}};
+}
+
+}  // namespace
+
+Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettings& settings,
+                  const RenderOptions& options, const RenderResult& result) {
+  const RenderReport& report = result.report;
+  Json record = newRecord(head);
+  record["scene"] = {{"file", scene.source.string()},
+                     {"name", scene.name},
+                     {"fileBytes", scene.stats.fileBytes},
+                     {"hostBytes", hostBytesOf(scene)},
+                     {"triangles", scene.stats.triangles}};
+  record["output"] = options.output;
+  record["method"] = nameOf(settings.method);
+  record["settings"] = settingsJson(settings, options);
+  record["layers"] = Json::array();
+  for (const Layer& layer : result.image.layers)
+    record["layers"].push_back(layer.name.empty() ? "picture" : layer.name);
+  record["plan"] = {{"all", settings.allEffects}, {"effects", Json::array()}};
+  for (const EffectRecord& effect : report.effects) {
+    record["plan"]["effects"].push_back({{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}});
+  }
+  record["gpu"] = Json::array();
+  for (const auto& [pass, gpuMs] : report.gpuMs) record["gpu"].push_back({{"pass", pass}, {"gpuMs", gpuMs}});
+  record["rays"] = report.rays;
+  record["counters"] = report.counters;
+  record["nonfinite"] = report.nonfinite;
+  record["deviceBytes"] = report.deviceBytes;
+  record["promise"] = report.promise;
+  record["pixelFilter"] = report.pixelFilter;
+  return record;
+}
+
+void describeInMetadata(RenderResult& result, const RenderSettings& settings, const gpu::DeviceInfo& device) {
+  auto& metadata = result.image.metadata;
+  metadata["Software"] = fmt::format("crosslight {} ({})", versionText(), commitText());
+  metadata["method"] = nameOf(settings.method);
+  metadata["spp"] = std::to_string(settings.spp);
+  metadata["seed"] = std::to_string(settings.seed);
+  metadata["pixelFilter"] = result.report.pixelFilter;
+  metadata["promise"] = result.report.promise;
+  metadata["device"] = device.name;
+  metadata["driver"] = driverOf(device);
+}
+
+std::string timesText(const Times& timesMs) {
+  std::string parts, total;
+  for (const auto& [phase, wallMs] : timesMs) {
+    if (phase == "total") {
+      total = fmt::format("{:.0f} ms", wallMs);
+    } else {
+      parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", phase, wallMs);
+    }
+  }
+  return total + " (" + parts + ")";
+}
+
+}  // namespace crosslight

@@ -1,0 +1,21 @@
+// What a finished render says of itself: the JSON record, the image's metadata, the line on stderr.
+#pragma once
+
+#include <string>
+
+#include "app/record.h"
+#include "app/render_job.h"
+#include "app/render_options.h"
+
+namespace crosslight {
+
+Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettings& settings,
+                  const RenderOptions& options, const RenderResult& result);
+
+// Into the image's metadata: what made it. Nothing that differs between two runs with the same bits.
+void describeInMetadata(RenderResult& result, const RenderSettings& settings, const gpu::DeviceInfo& device);
+
+// "412 ms (load 3, device 60, ...)"
+std::string timesText(const Times& timesMs);
+
+}  // namespace crosslight
