@@ -25,7 +25,8 @@ std::vector<float> pictureRgb(const Image& image, float gain) {
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     float p[4];
     read(i, p);
-    for (int c = 0; c < 3; ++c) *out++ = p[c] * gain;
+    // Not times 1: that would change the bits of a signaling NaN.
+    for (int c = 0; c < 3; ++c) *out++ = gain == 1.0f ? p[c] : p[c] * gain;
   }
   return rgb;
 }
