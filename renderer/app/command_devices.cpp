@@ -27,8 +27,7 @@ void run(const Options& options, const CommonOptions& common) {
     for (const gpu::DeviceReport& report : reports) record["devices"].push_back(deviceJson(report));
     writeRecord(options.json, record);
   }
-  // Opened, not only looked at: a driver that lists a device may still fail to make one.
-  if (options.device.required || !options.device.selector.empty()) openDevice(options.device);
+  openIfAsked(options.device);
 }
 
 }  // namespace

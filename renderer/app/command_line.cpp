@@ -1,8 +1,10 @@
 #include "app/command_line.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <functional>
 
 #include "app/output.h"
 #include "app/program_text.h"
@@ -12,6 +14,8 @@
 
 namespace crosslight {
 namespace {
+
+constexpr const char* kLastGroup = "Messages";  // what every command has comes after its own options
 
 // A validator without a description: CLI11 would append it to the placeholder.
 void addCheck(CLI::Option* option, std::function<std::string(const std::string&)> problem) {
@@ -50,9 +54,9 @@ CLI::App& CommandLine::add(const std::string& name, const std::string& summary, 
 void CommandLine::onRun(CLI::App& command, std::function<void()> run) {
   CLI::Option* quiet = flag(command, "-q,--quiet", common_.quiet, "Only errors on stderr");
   CLI::Option* verbose = flag(command, "-v,--verbose", common_.verbose, "More on stderr: times, effects with reasons");
-  quiet->group("Messages")->excludes(verbose);
-  verbose->group("Messages");
-  command.get_help_ptr()->group("Messages");
+  quiet->group(kLastGroup)->excludes(verbose);
+  verbose->group(kLastGroup);
+  command.get_help_ptr()->group(kLastGroup);
   for (Entry& entry : entries_) {
     if (entry.command.app == &command) entry.command.run = std::move(run);
   }
@@ -188,6 +192,7 @@ OptionModel CommandLine::describe(const CLI::Option& option) const {
 ProgramModel CommandLine::model() const {
   ProgramModel program = programText();
   for (const CLI::Option* option : app_.get_options()) program.options.push_back(describe(*option));
+  const auto isLast = [](const OptionModel& option) { return option.group == kLastGroup; };
   for (const Entry& entry : entries_) {
     CommandModel command;
     command.name = entry.command.app->get_name();
@@ -201,6 +206,7 @@ ProgramModel CommandLine::model() const {
         if (positional) command.options.back().group = "Arguments";
       }
     }
+    std::stable_partition(command.options.begin(), command.options.end(), std::not_fn(isLast));
     program.commands.push_back(std::move(command));
   }
   return program;

@@ -14,7 +14,6 @@ std::string headOf(const OptionModel& option) {
 
 std::string explanationOf(const OptionModel& option) {
   std::string text = option.description + ".";
-  if (option.kind == ValueKind::keyValue) text += " Pairs: " + joined(option.choices, ", ") + ".";
   if (option.repeatable) text += " May be given several times.";
   if (!option.defaultText.empty()) text += " Default: " + option.defaultText + ".";
   return text;

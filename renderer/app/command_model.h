@@ -49,7 +49,7 @@ struct ProgramModel {
 
 // Names joined with commas and the placeholder: "-o, --output FILE".
 std::string headOf(const OptionModel& option);
-// Description, the key=value table or choices, and the default, as sentences.
+// Description and default as sentences.
 std::string explanationOf(const OptionModel& option);
 // Group names in the order of first use.
 std::vector<std::string> groupsOf(const std::vector<OptionModel>& options);

@@ -37,7 +37,10 @@ void describe(const RenderResult& result) {
 }
 
 void run(const RenderOptions& options, const CommonOptions& common) {
-  if (options.listDevices) return printToStdout(deviceTable(gpu::listDevices()));
+  if (options.listDevices) {
+    printToStdout(deviceTable(gpu::listDevices()));
+    return openIfAsked(options.device);
+  }
   Stopwatch total, lap;
   const RenderSettings checked = checkedSettings(options);  // all that can be said before the file is read
   const DisplayTransform display = checkedDisplay(options);

@@ -40,6 +40,10 @@ gpu::Device openDevice(const DeviceChoice& choice) {
   return device;
 }
 
+void openIfAsked(const DeviceChoice& choice) {
+  if (choice.required || !choice.selector.empty()) openDevice(choice);
+}
+
 std::string deviceTable(const std::vector<gpu::DeviceReport>& reports) {
   if (reports.empty()) {
     return "No Vulkan driver was found. The software driver lavapipe needs no GPU (Debian: mesa-vulkan-drivers).\n";

@@ -11,6 +11,27 @@
 
 namespace crosslight {
 namespace fs = std::filesystem;
+namespace {
+
+// 0, or the errno that making a file in `folder` gives. Permission bits do not tell: root passes all of them, and
+// read-only and pseudo file systems refuse whatever they say.
+int probe(const fs::path& folder) {
+  int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // has no name: leaves nothing behind
+  if (file >= 0) {
+    ::close(file);
+    return 0;
+  }
+  if (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL) return errno;
+  // The file system knows no files without a name.
+  const fs::path named = folder / (".crosslight.probe" + std::to_string(::getpid()));
+  file = ::open(named.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (file < 0) return errno;
+  ::close(file);
+  ::unlink(named.c_str());
+  return 0;
+}
+
+}  // namespace
 
 void printToStdout(const std::string& text) {
   const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
@@ -29,18 +50,9 @@ void checkOutputPlace(const fs::path& file) {
   if (fs::is_directory(file, ignored) || !file.has_filename()) {
     throw InputError(file.string(), "is a folder; the name of a file is needed");
   }
-  // A file without a name tells what permission bits do not (read-only and pseudo file systems, root) and leaves
-  // nothing.
-  const int probe = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-  if (probe >= 0) {
-    ::close(probe);
-    return;
+  if (const int error = probe(folder); error != 0) {
+    throw InputError(file.string(), "its folder '" + folder.string() + "' cannot be written: " + std::strerror(error));
   }
-  // Some file systems know no files without a name: there the permission bits decide, and in the end the writing
-  // itself.
-  const bool unknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL;
-  if (unknown && ::access(folder.c_str(), W_OK | X_OK) == 0) return;
-  throw InputError(file.string(), "its folder '" + folder.string() + "' cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace crosslight

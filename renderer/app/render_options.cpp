@@ -50,6 +50,7 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
       ->group("Picture");
   o.time = line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
                        "Evaluate animations at this time; without it nodes stay in their rest pose")
+               ->default_str("")
                ->group("Picture");
   line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
             {ValueKind::keyValue, allSetPairs()})
@@ -81,11 +82,7 @@ void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.text(command, "--aov", o.aovs, "LIST",
             "Layers beside the picture, with commas between, or 'all': " + joined(aovNames(), ", ") + ". Needs .exr")
       ->group("Output");
-  line.number(command, "--exposure", o.exposureStops, "STOPS", -kMostStops, kMostStops,
-              "Multiply the picture by 2^STOPS")
-      ->group("Output");
-  line.choice(command, "--tone-map", o.toneMap, kToneMaps, "How PNG maps radiance to what a display can show")
-      ->group("Output");
+  addDisplayOptions(line, command, o.exposureStops, o.toneMap);
   line.flag(command, "--alpha", o.alpha, "PNG with the coverage as its alpha channel")->group("Output");
   line.flag(command, "--allow-nonfinite", o.allowNonfinite,
             "Write the image even when it holds NaN or infinity, which else ends with exit code 5")
@@ -96,6 +93,15 @@ void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
 }
 
 }  // namespace
+
+void addDisplayOptions(CommandLine& line, CLI::App& command, double& exposureStops, std::string& toneMap) {
+  line.number(command, "--exposure", exposureStops, "STOPS", -kMostStops, kMostStops, "Multiply the picture by 2^STOPS")
+      ->group("Output");
+  line.choice(command, "--tone-map", toneMap, kToneMaps, "How PNG maps radiance to what a display can show")
+      ->group("Output");
+}
+
+ToneMap toneMapOf(const std::string& name) { return static_cast<ToneMap>(indexIn(kToneMaps, name)); }
 
 void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.text(command, "SCENE", o.scene, "SCENE", "A glTF 2.0 file, .gltf or .glb", ValueKind::file);
@@ -143,7 +149,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
 
 DisplayTransform checkedDisplay(const RenderOptions& o) {
   DisplayTransform display;
-  display.toneMap = static_cast<ToneMap>(indexIn(kToneMaps, o.toneMap));
+  display.toneMap = toneMapOf(o.toneMap);
   display.exposureStops = static_cast<float>(o.exposureStops);
   display.withAlpha = o.alpha;
   const ImageFormat format = imageFormatOf(o.output);

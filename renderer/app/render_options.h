@@ -43,6 +43,10 @@ struct RenderOptions {
   bool listDevices = false;
 };
 
+// --exposure and --tone-map.
+void addDisplayOptions(CommandLine& line, CLI::App& command, double& exposureStops, std::string& toneMap);
+ToneMap toneMapOf(const std::string& name);
+
 void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& options);
 
 // UsageError on what cannot be meant; a warning on options that the method does not heed. The camera is left at 0: its

@@ -7,8 +7,8 @@
 namespace crosslight {
 namespace {
 
-// One typo per three letters still reads as the word; more would suggest strangers ("box" for "fog").
-constexpr std::size_t kLettersPerTypo = 3;
+// One typo per two letters still reads as the word ("fong", phong); more would suggest strangers ("box" for "fog").
+constexpr std::size_t kLettersPerTypo = 2;
 
 std::string lowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
