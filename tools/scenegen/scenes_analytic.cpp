@@ -85,7 +85,7 @@ constexpr SceneRow kRows[] = {
     {"analytic/exercise_phong_16", "the same sphere as triangles, 16 around; P on a triangle's centroid",
      exerciseTessellated<16>},
     {"analytic/exercise_phong_64", "64 around: the error falls with the square of the step", exerciseTessellated<64>},
-    {"analytic/exercise_phong_256", "256 around", exerciseTessellated<256>},
+    {"analytic/exercise_phong_256", "256 around, the finest", exerciseTessellated<256>},
     {"analytic/plane_directional", "flat = Gouraud = Phong = Whitted with an infinite viewer", planeDirectional},
 };
 

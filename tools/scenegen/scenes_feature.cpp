@@ -105,8 +105,9 @@ void blinnPhong(GltfBuilder& gltf) { ballScene(gltf, paint("blinnPhong", {0.20, 
 void cookTorrance(GltfBuilder& gltf) {
   const int metal = gltf.addMaterial(pbrMaterial("rough metal", {0.95, 0.64, 0.54}, 1.0, 0.35));
   const int plastic = gltf.addMaterial(pbrMaterial("plastic", {0.15, 0.45, 0.75}, 0.0, 0.4));
-  gltf.addRoot(shapeNode(gltf, "metal ball", {.params = {0.8, 0.0, 0.0}, .segments = 48}, metal, {-0.9, 0.8, 0.0}));
-  gltf.addRoot(shapeNode(gltf, "plastic ball", {.params = {0.8, 0.0, 0.0}, .segments = 48}, plastic, {0.9, 0.8, 0.0}));
+  gltf.addRoot(shapeNode(gltf, "metal ball", {.params = {0.66, 0.0, 0.0}, .segments = 48}, metal, {-0.72, 0.66, 0.0}));
+  gltf.addRoot(
+      shapeNode(gltf, "plastic ball", {.params = {0.66, 0.0, 0.0}, .segments = 48}, plastic, {0.72, 0.66, 0.0}));
   addStage(gltf);
 }
 
@@ -118,7 +119,7 @@ void unlit(GltfBuilder& gltf) {
 
 void mirror(GltfBuilder& gltf) {
   const int red = gltf.addMaterial(paint("red", {0.75, 0.15, 0.12}));
-  gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.4, 0.0, 0.0}}, red, {1.2, 0.4, 0.9}));
+  gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.4, 0.0, 0.0}}, red, {0.85, 0.4, 0.95}));
   ballScene(gltf, classicMaterial(
                       "mirror",
                       {.ka = dvec3(0.02), .kd = dvec3(0.05), .ks = dvec3(0.5), .shininess = 100.0, .kr = dvec3(0.9)}));
@@ -213,9 +214,9 @@ constexpr SceneRow kRows[] = {
     {"feature/texture", "a linear, repeated and transformed base color texture", texture},
     {"feature/texture_nearest", "a texture without filtering on a classic material", textureNearest},
     {"feature/normal_map", "a normal map with tangents", normalMap},
-    {"feature/alpha_mask", "alpha cutoff", alphaMask},
+    {"feature/alpha_mask", "alpha mask with a cutoff of one half", alphaMask},
     {"feature/alpha_blend", "three half-transparent sheets, one behind the other", alphaBlend},
-    {"feature/vertex_colors", "COLOR_0", vertexColors},
+    {"feature/vertex_colors", "colors by vertex (COLOR_0)", vertexColors},
 };
 
 }  // namespace

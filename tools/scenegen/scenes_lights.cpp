@@ -27,7 +27,7 @@ void addKhrLight(GltfBuilder& gltf, Json light, const dvec3& position, const dve
 void addBallAndFloor(GltfBuilder& gltf, Json ball, Json floor) {
   gltf.addRoot(shapeNode(gltf, "ball", {.segments = 48}, gltf.addMaterial(std::move(ball)), {0.0, 1.0, 0.0}));
   addGrid(gltf, "floor", gltf.addMaterial(std::move(floor)),
-          gridMesh(dvec3(0.0), {3.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 48));
+          gridMesh(dvec3(0.0), {3.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 40));
   addCamera(gltf, {.eye = {0.0, 2.6, 5.4}, .target = {0.0, 0.85, 0.0}, .yFovDegrees = 36.0});
   setAtmosphere(gltf, 0.05, {0.06, 0.07, 0.09});
 }
@@ -132,10 +132,10 @@ void shapes(GltfBuilder& gltf) {
     gltf.addRoot(std::move(node));
   };
   const dvec3 one(1.0);
-  add("ellipsoid", ShapeKind::sphere, {0.7, 0.0, 0.0}, {-3.1, 0.8, -1.2}, quaternion({0, 0, 1}, 30.0), {1.4, 0.8, 0.9});
+  add("ellipsoid", ShapeKind::sphere, {0.7, 0.0, 0.0}, {-2.8, 0.8, -1.2}, quaternion({0, 0, 1}, 30.0), {1.4, 0.8, 0.9});
   add("disk", ShapeKind::disk, {0.9, 0.0, 0.0}, {-0.9, 1.0, -1.8}, quaternion({1, 0.2, 0}, 65.0), one);
   add("box", ShapeKind::box, {1.0, 1.2, 0.8}, {1.2, 0.95, -1.5}, quaternion({1, 1, 0.3}, 35.0), {-1.0, 1.0, 1.0});
-  add("elliptic cylinder", ShapeKind::cylinder, {0.5, 1.4, 0.0}, {3.2, 0.9, -1.3}, quaternion({1, 0, 0.4}, 25.0),
+  add("elliptic cylinder", ShapeKind::cylinder, {0.5, 1.4, 0.0}, {2.95, 0.9, -1.3}, quaternion({1, 0, 0.4}, 25.0),
       {1.5, 1.0, 0.7});
   add("mirrored cone", ShapeKind::cone, {0.6, 1.3, 0.0}, {-1.6, 0.75, 0.8}, quaternion({0, 0, 1}, -15.0),
       {1.0, -1.0, 1.0});
@@ -143,7 +143,7 @@ void shapes(GltfBuilder& gltf) {
       {1.3, 0.8, 0.9});
   addPointLight(gltf, "key", {-4.0, 7.0, 6.0}, {.color = dvec3(0.75)});
   addPointLight(gltf, "fill", {6.0, 4.0, 4.0}, {.color = dvec3(0.3)});
-  addCamera(gltf, {.eye = {0.0, 3.6, 8.5}, .target = {0.0, 0.7, -0.3}, .yFovDegrees = 36.0});
+  addCamera(gltf, {.eye = {0.0, 3.6, 8.5}, .target = {0.0, 0.7, -0.3}, .yFovDegrees = 48.0});
   setAtmosphere(gltf, 0.15, {0.10, 0.12, 0.15});
 }
 

@@ -44,7 +44,7 @@ void overview(GltfBuilder& gltf) {
   const int ivory = gltf.addMaterial(matte("ivory squares", {0.74, 0.72, 0.67}));
   const int slate = gltf.addMaterial(matte("slate squares", {0.17, 0.20, 0.26}));
   addCheckerFloor(gltf, 7.0, 14, ivory, slate);
-  addTeapot(gltf, {-0.35, 0.0, 0.1});
+  addTeapot(gltf, {-0.3, 0.0, 0.0});
   const int mirror = gltf.addMaterial(classicMaterial(
       "mirror", {.ka = dvec3(0.02), .kd = dvec3(0.05), .ks = dvec3(0.7), .shininess = 160.0, .kr = dvec3(0.85)}));
   const int glass = gltf.addMaterial(glassMaterial("glass", {0.97, 1.0, 0.98}, 1.5));
@@ -52,16 +52,16 @@ void overview(GltfBuilder& gltf) {
   const int crimson = gltf.addMaterial(paint("crimson", {0.66, 0.09, 0.13}));
   const int amber = gltf.addMaterial(paint("amber", {0.84, 0.47, 0.07}));
   const int violet = gltf.addMaterial(paint("violet", {0.36, 0.23, 0.62}));
-  gltf.addRoot(shapeNode(gltf, "mirror sphere", {ShapeKind::sphere, {1.2, 0.0, 0.0}, 32}, mirror, {2.15, 1.2, -2.1}));
-  gltf.addRoot(shapeNode(gltf, "glass sphere", {ShapeKind::sphere, {0.75, 0.0, 0.0}, 28}, glass, {2.05, 0.75, 1.55}));
-  gltf.addRoot(shapeNode(gltf, "cylinder", {ShapeKind::cylinder, {0.55, 2.1, 0.0}, 28}, violet, {-0.9, 1.05, -2.9}));
-  gltf.addRoot(shapeNode(gltf, "cone", {ShapeKind::cone, {0.6, 1.35, 0.0}, 28}, amber, {-3.45, 0.675, 0.25}));
-  addRing(gltf, teal, -1.75, 2.35);
-  addBox(gltf, crimson, -3.1, -2.2);
+  gltf.addRoot(shapeNode(gltf, "mirror sphere", {ShapeKind::sphere, {1.2, 0.0, 0.0}, 32}, mirror, {1.85, 1.2, -2.2}));
+  gltf.addRoot(shapeNode(gltf, "glass sphere", {ShapeKind::sphere, {0.75, 0.0, 0.0}, 28}, glass, {1.75, 0.75, 1.6}));
+  gltf.addRoot(shapeNode(gltf, "cylinder", {ShapeKind::cylinder, {0.55, 2.1, 0.0}, 28}, violet, {-0.75, 1.05, -3.1}));
+  gltf.addRoot(shapeNode(gltf, "cone", {ShapeKind::cone, {0.6, 1.35, 0.0}, 28}, amber, {-2.65, 0.675, 0.6}));
+  addRing(gltf, teal, -1.05, 2.5);
+  addBox(gltf, crimson, -2.75, -2.0);
   addPointLight(gltf, "key", {-4.5, 8.0, 6.0}, {.color = {0.80, 0.75, 0.66}});
   addPointLight(gltf, "sky", {6.5, 6.0, 4.5}, {.color = {0.20, 0.27, 0.42}});
   addPointLight(gltf, "rim", {2.0, 5.0, -7.0}, {.color = {0.32, 0.19, 0.12}});
-  addCamera(gltf, {.eye = {0.7, 4.0, 9.4}, .target = {-0.2, 0.85, -0.2}, .yFovDegrees = 36.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.7, 4.6, 9.2}, .target = {-0.15, 0.7, -0.1}, .yFovDegrees = 42.0, .zNear = 0.5});
   setAtmosphere(gltf, 0.2, {0.055, 0.085, 0.15});
 }
 

@@ -26,12 +26,12 @@ void addFloor(GltfBuilder& gltf, const dvec3& center, double halfX, double halfZ
 
 void teapot(GltfBuilder& gltf) {
   const int metal = gltf.addMaterial(presetMaterial("polishedBronze"));
-  const Json pot = gltf.addGeometry(tessellateTeapot(20));
+  const Json pot = gltf.addGeometry(tessellateTeapot(18));
   gltf.addRoot(rotatedAboutY(meshNode("teapot", gltf.addMesh("teapot", {{pot, metal}})), -25.0));
   addFloor(gltf, {0.0, 0.0, 0.0}, 9.0, 9.0, gltf.addMaterial(matte("floor", {0.42, 0.41, 0.40})));
   addPointLight(gltf, "key", {-6.0, 10.0, 8.0}, {.color = dvec3(0.9, 0.87, 0.82)});
   addPointLight(gltf, "fill", {9.0, 6.0, 4.0}, {.color = dvec3(0.25, 0.3, 0.4)});
-  addCamera(gltf, {.eye = {0.5, 5.0, 11.0}, .target = {0.1, 1.35, 0.0}, .yFovDegrees = 34.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.5, 5.0, 11.0}, .target = {0.1, 1.35, 0.0}, .yFovDegrees = 40.0, .zNear = 0.5});
   setAtmosphere(gltf, 0.25, {0.10, 0.12, 0.15});
 }
 
@@ -43,14 +43,14 @@ void teapots(GltfBuilder& gltf) {
     for (int column = 0; column < 4; ++column) {
       const std::string preset = presets[row][column];
       const int mesh = gltf.addMesh(preset, {{pot, gltf.addMaterial(presetMaterial(preset))}});
-      const dvec3 at((column - 1.5) * 7.6, 0.0, row == 0 ? -4.5 : 3.5);
-      gltf.addRoot(rotatedAboutY(meshNode(preset, mesh, at), -20.0));
+      const dvec3 at((column - 1.5) * 6.8, 0.0, row == 0 ? -6.0 : 6.0);
+      gltf.addRoot(rotatedAboutY(meshNode(preset, mesh, at), -38.0));
     }
   }
-  addFloor(gltf, dvec3(0.0), 26.0, 16.0, gltf.addMaterial(matte("floor", {0.38, 0.38, 0.39})));
+  addFloor(gltf, dvec3(0.0), 34.0, 34.0, gltf.addMaterial(matte("floor", {0.38, 0.38, 0.39})));
   addPointLight(gltf, "key", {-14.0, 22.0, 18.0}, {.color = dvec3(0.85)});
   addPointLight(gltf, "fill", {18.0, 12.0, 14.0}, {.color = dvec3(0.3, 0.32, 0.36)});
-  addCamera(gltf, {.eye = {0.0, 15.0, 27.0}, .target = {0.0, 0.6, -0.2}, .yFovDegrees = 31.0, .zNear = 1.0});
+  addCamera(gltf, {.eye = {0.0, 35.0, 41.0}, .target = {0.0, 0.6, 0.6}, .yFovDegrees = 34.5, .zNear = 1.0});
   setAtmosphere(gltf, 0.3, {0.08, 0.09, 0.11});
 }
 
@@ -70,13 +70,13 @@ void spheresChecker(GltfBuilder& gltf) {
   };
   ball("mirror", mirror, 1.4, -0.9, -1.8);
   ball("glass", glass, 1.0, 1.35, 1.0);
-  ball("red", red, 0.8, -2.7, 0.7);
+  ball("red", red, 0.8, -2.35, 0.9);
   ball("green", green, 0.6, 2.9, -1.7);
   ball("blue", blue, 0.7, 1.6, -3.4);
   ball("yellow", yellow, 0.45, -0.8, 1.9);
   addPointLight(gltf, "key", {-5.0, 9.0, 6.0}, {.color = dvec3(0.8, 0.78, 0.74)});
   addPointLight(gltf, "fill", {7.0, 6.0, 3.0}, {.color = dvec3(0.25, 0.28, 0.35)});
-  addCamera(gltf, {.eye = {0.6, 3.6, 9.0}, .target = {0.0, 0.75, -0.4}, .yFovDegrees = 38.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.6, 3.6, 9.0}, .target = {0.0, 0.75, -0.4}, .yFovDegrees = 46.0, .zNear = 0.5});
   setAtmosphere(gltf, 0.2, {0.28, 0.42, 0.60});
 }
 
@@ -182,7 +182,7 @@ void threeLights(GltfBuilder& gltf) {
     color[i] = 0.95;
     addPointLight(gltf, names[i], {6.0 * std::cos(angle), 6.0 * std::sin(angle), 7.0}, {.color = color});
   }
-  addCamera(gltf, {.eye = {0.0, 0.0, 9.0}, .target = dvec3(0.0), .yFovDegrees = 30.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.0, 0.0, 9.0}, .target = dvec3(0.0), .yFovDegrees = 35.0, .zNear = 0.5});
   setAtmosphere(gltf, 0.03, dvec3(0.0));
 }
 
@@ -193,19 +193,20 @@ void polyhedra(GltfBuilder& gltf) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const int material = gltf.addMaterial(paint(solids[i].name, colors[i], 0.2, 20.0));
     const int mesh = gltf.addMesh(solids[i].name, {{gltf.addGeometry(polyhedronMesh(solids[i])), material}});
-    const double x = (static_cast<double>(i) - 2.0) * 2.2;
+    const double back = i % 2 == 1 ? 1.0 : 0.0;  // three before, two behind them
     gltf.addRoot(
-        rotatedAboutY(meshNode(solids[i].name, mesh, {x, 1.05, 0.25 * std::abs(x)}), 17.0 * static_cast<double>(i)));
+        rotatedAboutY(meshNode(solids[i].name, mesh, {(static_cast<double>(i) - 2.0) * 1.3, 1.0, 1.2 - 2.8 * back}),
+                      17.0 * static_cast<double>(i)));
   }
-  addFloor(gltf, dvec3(0.0), 7.0, 3.0, gltf.addMaterial(matte("floor", {0.45, 0.44, 0.43})));
+  addFloor(gltf, dvec3(0.0), 5.0, 5.0, gltf.addMaterial(matte("floor", {0.45, 0.44, 0.43})));
   addPointLight(gltf, "key", {-4.0, 7.0, 7.0}, {.color = dvec3(0.9)});
   addPointLight(gltf, "fill", {8.0, 4.0, 3.0}, {.color = dvec3(0.25)});
-  addCamera(gltf, {.eye = {0.0, 3.6, 13.5}, .target = {0.0, 0.75, 0.0}, .yFovDegrees = 24.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.0, 6.5, 10.5}, .target = {0.0, 0.7, 0.1}, .yFovDegrees = 39.5, .zNear = 0.5});
   setAtmosphere(gltf, 0.2, {0.10, 0.11, 0.13});
 }
 
 constexpr SceneRow kRows[] = {
-    {"showcase/teapot", "one Utah teapot of 25 thousand triangles", teapot},
+    {"showcase/teapot", "one Utah teapot of 20 thousand triangles", teapot},
     {"showcase/teapots", "eight teapots, one mesh: the metals of the classic material table", teapots},
     {"showcase/spheres_checker", "mirror, glass and painted spheres over a checkered floor", spheresChecker},
     {"showcase/cornell", "the Cornell box as measured; a bulb and a glowing lamp", cornell},

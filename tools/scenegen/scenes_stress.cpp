@@ -74,7 +74,7 @@ void addStillLife(GltfBuilder& gltf, const dvec3& place) {
   const int blue = gltf.addMaterial(paint("blue", {0.2, 0.4, 0.7}));
   const int gray = gltf.addMaterial(matte("gray", dvec3(0.5)));
   const Primitive floor = withoutUv(gridMesh({0.0, -1.0, 0.0}, {2.5, 0.0, 0.0}, {0.0, 0.0, -2.5}, 16));
-  Json ball = shapeNode(gltf, "ball", {.params = {0.45, 0.0, 0.0}}, blue, {1.5, -0.55, 0.8});
+  Json ball = shapeNode(gltf, "ball", {.params = {0.45, 0.0, 0.0}}, blue, {1.3, -0.55, 0.8});
   Json children = {addMeshChild(gltf, "knot", knot(), blue), addMeshChild(gltf, "floor", floor, gray),
                    gltf.addNode(std::move(ball))};
   gltf.addRoot({{"name", "everything"}, {"translation", listOf(place)}, {"children", children}});
@@ -150,7 +150,7 @@ void thinTriangles(GltfBuilder& gltf) {
   const Primitive back = withoutUv(gridMesh({0.0, 0.0, -0.25}, {2.4, 0.0, 0.0}, {0.0, 1.4, 0.0}, 1));
   gltf.addRoot(meshNode("wall", gltf.addMesh("wall", {{gltf.addGeometry(back), red}})));
   addDirectionalLight(gltf, "sun", {0.2, -0.4, -1.0}, {.color = dvec3(0.9)});
-  addCamera(gltf, {.eye = {0.0, 0.0, 6.0}, .target = dvec3(0.0), .yFovDegrees = 34.0});
+  addCamera(gltf, {.eye = {0.0, 0.0, 6.0}, .target = dvec3(0.0), .yFovDegrees = 42.0});
   setAtmosphere(gltf, 0.2, dvec3(0.0));
 }
 
