@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,9 +23,8 @@ Image decodeHdr(View file, const std::string& where);
 Bytes encodePfm(const Image& image, float gain);
 Image decodePfm(View file, const std::string& where);
 
-// OpenEXR writes to and reads from files itself.
-void writeExr(const std::filesystem::path& path, const Image& image, float gain, const std::string& where);
-Image readExr(const std::filesystem::path& path);
+Bytes encodeExr(const Image& image, float gain, const std::string& where);
+Image decodeExr(View file, const std::string& where);
 
 // InputError unless both sides are 1 .. kMaxImageSide.
 void checkSides(std::uint64_t width, std::uint64_t height, const std::string& where);

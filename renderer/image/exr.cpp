@@ -1,8 +1,11 @@
 // OpenEXR: layers as `layer.channel`, floats as FLOAT, ids as UINT, ZIP compression, metadata as string attributes.
 // The only place that sees the library; its exceptions become InputError.
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <mutex>
+#include <stdexcept>
+#include <utility>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -15,6 +18,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -27,6 +31,43 @@ namespace crosslight::codec {
 namespace {
 
 static_assert(sizeof(unsigned int) == sizeof(std::uint32_t));
+
+// Files are made in memory: on disk OpenEXR writes its last bytes in a destructor, which cannot report a full disk.
+class MemoryOutput : public Imf::OStream {
+ public:
+  explicit MemoryOutput(const std::string& where) : OStream(where.c_str()) {}
+  void write(const char bytes[], int count) override {
+    const auto n = static_cast<std::size_t>(count);
+    if (at_ + n > bytes_.size()) bytes_.resize(at_ + n);
+    std::memcpy(bytes_.data() + at_, bytes, n);
+    at_ += n;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+  Bytes take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+  std::size_t at_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+ public:
+  MemoryInput(View file, const std::string& where) : IStream(where.c_str()), file_(file) {}
+  bool read(char bytes[], int count) override {
+    const auto n = static_cast<std::size_t>(count);
+    if (count < 0 || at_ > file_.size() || n > file_.size() - at_) throw std::runtime_error("the file ends early");
+    std::memcpy(bytes, file_.data() + at_, n);
+    at_ += n;
+    return at_ < file_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  View file_;
+  std::size_t at_ = 0;
+};
 
 char* bytesOf(Layer& layer, std::size_t channel) {
   if (layer.isInteger) return reinterpret_cast<char*>(layer.integers.data() + channel);
@@ -189,7 +230,7 @@ void limitHeaders() {
 
 }  // namespace
 
-void writeExr(const std::filesystem::path& path, const Image& image, float gain, const std::string& where) {
+Bytes encodeExr(const Image& image, float gain, const std::string& where) {
   const Imf::Header header = headerOf(image);
   std::vector<Layer> scaled;
   if (gain != 1.0f && !image.picture().isInteger) {
@@ -204,25 +245,24 @@ void writeExr(const std::filesystem::path& path, const Image& image, float gain,
     for (const std::string& channel : layer.channelNames) names.push_back(channelName(layer.name, channel));
     insertSlices(frame, layer, header.dataWindow(), names);
   }
+  MemoryOutput output(where);
   try {
-    Imf::OutputFile file(path.c_str(), header);
+    Imf::OutputFile file(output, header);
     file.setFrameBuffer(frame);
     file.writePixels(static_cast<int>(image.height));
   } catch (const std::exception& error) {
     throw InputError(where, std::string("cannot be written: ") + error.what());
   }
+  return output.take();
 }
 
-Image readExr(const std::filesystem::path& path) {
-  const std::string where = path.string();
+Image decodeExr(View bytes, const std::string& where) {
   limitHeaders();
-  std::error_code sizeError;
-  const std::uint64_t fileBytes = std::filesystem::file_size(path, sizeError);
-  if (sizeError) throw InputError(where, "cannot be opened: " + sizeError.message());
+  MemoryInput input(bytes, where);
   try {
-    Imf::MultiPartInputFile file(path.c_str());
+    Imf::MultiPartInputFile file(input);
     Image image;
-    for (int part = 0; part < file.parts(); ++part) readPart(file, part, fileBytes, where, image);
+    for (int part = 0; part < file.parts(); ++part) readPart(file, part, bytes.size(), where, image);
     readMetadata(file.header(0), image);
     return image;
   } catch (const Error&) {

@@ -69,31 +69,37 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Dis
   codec::checkSides(image.width, image.height, where);
   checkLayers(image);
   const float gain = std::exp2(display.exposureStops);
-  switch (format) {
-    case ImageFormat::png:
-      return writeFileAtomically(path, codec::View(codec::encodePng(image, display, where)));
-    case ImageFormat::hdr:
-      return writeFileAtomically(path, codec::View(codec::encodeHdr(image, gain, where)));
-    case ImageFormat::pfm:
-      return writeFileAtomically(path, codec::View(codec::encodePfm(image, gain)));
-    case ImageFormat::exr:
-      return writeFileAtomically(
-          path, [&](const std::filesystem::path& temporary) { codec::writeExr(temporary, image, gain, where); });
-  }
+  const codec::Bytes file = [&] {
+    switch (format) {
+      case ImageFormat::png:
+        return codec::encodePng(image, display, where);
+      case ImageFormat::exr:
+        return codec::encodeExr(image, gain, where);
+      case ImageFormat::hdr:
+        return codec::encodeHdr(image, gain, where);
+      case ImageFormat::pfm:
+        return codec::encodePfm(image, gain);
+    }
+    throw InternalError("an image format without an encoder");
+  }();
+  writeFileAtomically(path, codec::View(file));
 }
 
 Image readImage(const std::filesystem::path& path) {
   const ImageFormat format = imageFormatOf(path);
-  if (format == ImageFormat::exr) return codec::readExr(path);
   const codec::Bytes file = readFile(path);
+  const std::string where = path.string();
   switch (format) {
     case ImageFormat::png:
-      return codec::decodePng(file, path.string());
+      return codec::decodePng(file, where);
+    case ImageFormat::exr:
+      return codec::decodeExr(file, where);
     case ImageFormat::hdr:
-      return codec::decodeHdr(file, path.string());
-    default:
-      return codec::decodePfm(file, path.string());
+      return codec::decodeHdr(file, where);
+    case ImageFormat::pfm:
+      return codec::decodePfm(file, where);
   }
+  throw InternalError("an image format without a decoder");
 }
 
 }  // namespace crosslight

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <random>
 
 #include "base/error.h"
 #include "image/image_io.h"
@@ -96,6 +99,27 @@ TEST_P(EveryFormat, LeavesTheOldFileWhenTheNewOneIsRefused) {
   EXPECT_THROW(writeImage(file(), makeImage(0, 5)), InputError);
   EXPECT_EQ(contentOf(file()), "old");
   EXPECT_EQ(folder_.entries(), 1u);
+}
+
+// A limit on file sizes fails like a full disk; in a process of its own, because it stays.
+TEST_P(EveryFormat, KeepsTheOldFileOnAFullDisk) {
+  writeImage(file(), smallImage());
+  const std::string old = contentOf(file());
+  Image noise = makeImage(200, 200);
+  std::mt19937 bits(3);  // packs badly
+  for (float& sample : noise.picture().samples) sample = static_cast<float>(bits() >> 8) * 0x1p-24f;
+  const auto onFullDisk = [&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{10000, 10000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      writeImage(file(), noise);
+    } catch (const InputError&) {
+      std::_Exit(contentOf(file()) == old && folder_.entries() == 1 ? 0 : 1);
+    }
+    std::_Exit(2);
+  };
+  EXPECT_EXIT(onFullDisk(), ::testing::ExitedWithCode(0), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, ::testing::ValuesIn(kFormats),
