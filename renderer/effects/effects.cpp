@@ -169,14 +169,13 @@ class Analysis {
     addRayRule(Effect::absorption, "absorption", settings_.refraction && deep, "absorbs light on its way", absorbs);
   }
 
-  // Secondary rays meet surfaces from behind, which must then be lit from behind.
+  // Mirrored and refracted rays meet surfaces from behind, which must then be lit from behind.
   void promote() {
-    const bool secondary =
-        plan_.has(Effect::reflection) || plan_.has(Effect::refraction) || (traced_ && plan_.has(Effect::transparency));
+    const bool secondary = plan_.has(Effect::reflection) || plan_.has(Effect::refraction);
     if (!secondary || plan_.has(Effect::twoSided)) return;
     plan_.effects |= 1u << static_cast<std::uint32_t>(Effect::twoSided);
     for (EffectVerdict& v : plan_.verdicts) {
-      if (v.name == "twoSided") v = {"twoSided", true, "secondary rays meet surfaces from behind"};
+      if (v.name == "twoSided") v = {"twoSided", true, "mirrored and refracted rays meet surfaces from behind"};
     }
   }
 

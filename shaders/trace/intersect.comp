@@ -11,5 +11,5 @@ void main() {
   if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
   uint index = pushed.firstNode + gl_GlobalInvocationID.x;
   RayNode node = nodes[index];
-  hits[index] = closestHit(rayOf(node), node.kind == kRayPrimary);
+  hits[index] = closestHit(rayOf(node), goesStraight(node));
 }

@@ -61,7 +61,7 @@ void main() {
     nodes[index] = node;
     return;
   }
-  HitSurface h = surfaceOfHit(hit, rayOf(node), node.kind != kRayPrimary);
+  HitSurface h = surfaceOfHit(hit, rayOf(node), !goesStraight(node));
   SurfacePoint s = surfaceAt(h.at);
   LightSums sums = illuminate(s, towardsViewer(node, s.position), pushed.firstLight, pushed.lightCount);
   // Inside a refracting body no light arrives but along the rays that the tree follows.
