@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "gpu_fixture.h"
@@ -181,34 +183,36 @@ struct Spin {
 TEST_F(GpuTest, SpansMeasureWorkAndSumByName) {
   const Spin spin(device());
   Commands commands(device());
-  commands.begin();
-  spin.record(commands, {1, 1});
-  commands.submitAndWait();  // llvmpipe compiles a shader when it first runs
-  EXPECT_TRUE(commands.spans().empty());
-  commands.begin();
   const auto timed = [&](const char* name, SpinPush rounds) {
     commands.beginSpan(name);
     spin.record(commands, rounds);
     commands.endSpan();
     commands.barrier();
   };
-  timed("short", {1, 600});
-  timed("long", {100, 600});
-  for (int i = 0; i < 300; ++i) timed("many", {1, 10});  // more than one query pool holds
-  commands.submitAndWait();
-  const auto& spans = commands.spans();
-  ASSERT_EQ(spans.size(), 3u);
-  EXPECT_EQ(spans[0].name, "short");
-  EXPECT_EQ(spans[1].name, "long");
-  EXPECT_EQ(spans[2].name, "many");
-  if (device().info().timestampPeriodNs <= 0) GTEST_SKIP() << "this device has no timestamps";
-  double sum = 0;
-  for (const TimedSpan& span : spans) {
-    EXPECT_GT(span.gpuMs, 0.0) << span.name;
-    sum += span.gpuMs;
+  // Other programs only make spans longer: the shortest of some runs is what the work takes. The first run, in which
+  // llvmpipe compiles the shader, falls out that way too.
+  double shortMs = std::numeric_limits<double>::infinity(), longMs = shortMs;
+  for (int run = 0; run < 10; ++run) {
+    commands.begin();
+    timed("short", {1, 600});
+    timed("long", {100, 600});
+    for (int i = 0; i < 300; ++i) timed("many", {1, 10});  // more than one query pool holds
+    commands.submitAndWait();
+    const auto& spans = commands.spans();
+    ASSERT_EQ(spans.size(), 3u);
+    EXPECT_EQ(spans[0].name, "short");
+    EXPECT_EQ(spans[1].name, "long");
+    EXPECT_EQ(spans[2].name, "many");
+    if (device().info().timestampPeriodNs <= 0) GTEST_SKIP() << "this device has no timestamps";
+    for (const TimedSpan& span : spans) EXPECT_GT(span.gpuMs, 0.0) << span.name;
+    EXPECT_LE(spans[0].gpuMs + spans[1].gpuMs + spans[2].gpuMs, commands.submitToIdleMs());
+    shortMs = std::min(shortMs, spans[0].gpuMs);
+    longMs = std::min(longMs, spans[1].gpuMs);
   }
-  EXPECT_GT(spans[1].gpuMs, spans[0].gpuMs);
-  EXPECT_LE(sum, commands.submitToIdleMs());
+  EXPECT_GT(longMs, 2.0 * shortMs) << "a hundred times the loop passes";
+  commands.begin();
+  commands.submitAndWait();
+  EXPECT_TRUE(commands.spans().empty());
 }
 
 TEST_F(GpuTest, LoopsRunToTheirEndBelowTheLimitThatTheDeviceStates) {
