@@ -76,7 +76,7 @@ int ringsTexture(GltfBuilder& gltf) {
     out[0] = 200;
     out[1] = 120;
     out[2] = 40;
-    out[3] = byteOf(0.5 + 1.5 * std::cos(4.0 * std::numbers::pi * r));
+    out[3] = r < 1.0 ? byteOf(0.5 + 1.5 * std::cos(5.0 * std::numbers::pi * r)) : 0;
   });
   return gltf.addTexture("rings", png, sampler(kLinear));
 }

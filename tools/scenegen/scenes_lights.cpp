@@ -42,7 +42,7 @@ void addClassicStage(GltfBuilder& gltf) {
 
 void point(GltfBuilder& gltf) {
   addPbrStage(gltf);
-  addKhrLight(gltf, khrLight("point", "point", {1.0, 0.9, 0.75}, 45.0), {-1.6, 3.2, 1.8}, dvec3(0.0));
+  addKhrLight(gltf, khrLight("point", "point", {1.0, 0.9, 0.75}, 26.0), {-1.6, 3.2, 1.8}, dvec3(0.0));
 }
 
 void directional(GltfBuilder& gltf) {
@@ -52,7 +52,7 @@ void directional(GltfBuilder& gltf) {
 
 void spot(GltfBuilder& gltf) {
   addPbrStage(gltf);
-  Json light = khrLight("spot", "spot", {0.85, 0.92, 1.0}, 80.0);
+  Json light = khrLight("spot", "spot", {0.85, 0.92, 1.0}, 42.0);
   light["spot"] = {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.45}};
   addKhrLight(gltf, std::move(light), {-1.5, 4.0, 2.0}, {0.1, 0.5, 0.0});
 }
@@ -77,8 +77,8 @@ void spotClassic(GltfBuilder& gltf) {
 // constant, linear, quadratic and mixed attenuation.
 void spotAttenuation(GltfBuilder& gltf) {
   const int white = gltf.addMaterial(matte("white", dvec3(0.8)));
-  addGrid(gltf, "wall", white, gridMesh({0.0, 2.5, -2.0}, {6.0, 0.0, 0.0}, {0.0, 2.5, 0.0}, 64));
-  addGrid(gltf, "floor", white, gridMesh({0.0, 0.0, 0.5}, {6.0, 0.0, 0.0}, {0.0, 0.0, -2.5}, 64));
+  addGrid(gltf, "wall", white, gridMesh({0.0, 4.0, -2.0}, {7.0, 0.0, 0.0}, {0.0, 4.0, 0.0}, 64));
+  addGrid(gltf, "floor", white, gridMesh({0.0, 0.0, 2.0}, {7.0, 0.0, 0.0}, {0.0, 0.0, -4.0}, 64));
   const double exponents[4] = {0.0, 4.0, 16.0, 64.0}, cutoffs[4] = {20.0, 20.0, 28.0, 28.0};
   const dvec3 attenuations[4] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.25, 0.5, 1.5}};
   const dvec3 colors[4] = {{0.40, 0.40, 0.40}, {0.45, 0.30, 0.15}, {0.15, 0.40, 0.20}, {0.20, 0.25, 0.45}};
@@ -89,14 +89,14 @@ void spotAttenuation(GltfBuilder& gltf) {
                  {.color = dvec3(0.9), .spotCutoff = cutoffs[i], .spotExponent = exponents[i]});
     addPointLight(gltf, "point " + number, {x, 0.7, 0.9}, {.color = colors[i], .attenuation = attenuations[i]});
   }
-  addCamera(gltf, {.eye = {0.0, 3.6, 12.5}, .target = {0.0, 2.1, 0.0}, .yFovDegrees = 32.0});
+  addCamera(gltf, {.eye = {0.0, 4.5, 12.5}, .target = {0.0, 2.3, 0.0}, .yFovDegrees = 50.0});
   setAtmosphere(gltf, 0.04, dvec3(0.0));
 }
 
 // KHR spots: the smooth step between inner and outer cone, and the inverse square from three heights.
 void spotGltf(GltfBuilder& gltf) {
   const int white = gltf.addMaterial(pbrMaterial("white", dvec3(0.8), 0.0, 1.0));
-  addGrid(gltf, "floor", white, gridMesh(dvec3(0.0), {6.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 64));
+  addGrid(gltf, "floor", white, gridMesh(dvec3(0.0), {7.0, 0.0, 0.0}, {0.0, 0.0, -4.0}, 64));
   const double inner[4] = {0.0, 0.2, 0.38, 0.2}, outer[4] = {0.4, 0.4, 0.4, 0.4}, heights[4] = {3.0, 3.0, 3.0, 4.5};
   for (int i = 0; i < 4; ++i) {
     Json light = khrLight("spot " + std::to_string(i + 1), "spot", dvec3(1.0), 24.0);
@@ -105,7 +105,7 @@ void spotGltf(GltfBuilder& gltf) {
     const double x = 2.8 * (i - 1.5);
     addKhrLight(gltf, std::move(light), {x, heights[i], 0.0}, {x, 0.0, 0.0});
   }
-  addCamera(gltf, {.eye = {0.0, 6.0, 10.5}, .target = {0.0, 0.0, 0.2}, .yFovDegrees = 36.0});
+  addCamera(gltf, {.eye = {0.0, 8.0, 9.5}, .target = {0.0, 0.0, 0.2}, .yFovDegrees = 52.0});
   setAtmosphere(gltf, 0.03, dvec3(0.0));
 }
 
@@ -132,18 +132,18 @@ void shapes(GltfBuilder& gltf) {
     gltf.addRoot(std::move(node));
   };
   const dvec3 one(1.0);
-  add("ellipsoid", ShapeKind::sphere, {0.7, 0.0, 0.0}, {-2.8, 0.8, -1.2}, quaternion({0, 0, 1}, 30.0), {1.4, 0.8, 0.9});
-  add("disk", ShapeKind::disk, {0.9, 0.0, 0.0}, {-0.9, 1.0, -1.8}, quaternion({1, 0.2, 0}, 65.0), one);
-  add("box", ShapeKind::box, {1.0, 1.2, 0.8}, {1.2, 0.95, -1.5}, quaternion({1, 1, 0.3}, 35.0), {-1.0, 1.0, 1.0});
-  add("elliptic cylinder", ShapeKind::cylinder, {0.5, 1.4, 0.0}, {2.95, 0.9, -1.3}, quaternion({1, 0, 0.4}, 25.0),
+  add("ellipsoid", ShapeKind::sphere, {0.7, 0.0, 0.0}, {-2.0, 0.8, -1.3}, quaternion({0, 0, 1}, 30.0), {1.4, 0.8, 0.9});
+  add("disk", ShapeKind::disk, {0.9, 0.0, 0.0}, {0.0, 1.0, -1.8}, quaternion({1, 0.2, 0}, 65.0), one);
+  add("box", ShapeKind::box, {1.0, 1.2, 0.8}, {2.0, 0.95, -1.3}, quaternion({1, 1, 0.3}, 35.0), {-1.0, 1.0, 1.0});
+  add("elliptic cylinder", ShapeKind::cylinder, {0.5, 1.4, 0.0}, {-1.7, 0.85, 1.0}, quaternion({1, 0, 0.4}, 25.0),
       {1.5, 1.0, 0.7});
-  add("mirrored cone", ShapeKind::cone, {0.6, 1.3, 0.0}, {-1.6, 0.75, 0.8}, quaternion({0, 0, 1}, -15.0),
+  add("mirrored cone", ShapeKind::cone, {0.6, 1.3, 0.0}, {0.1, 0.75, 1.2}, quaternion({0, 0, 1}, -15.0),
       {1.0, -1.0, 1.0});
-  add("stretched torus", ShapeKind::torus, {0.65, 0.22, 0.0}, {1.6, 0.85, 0.9}, quaternion({1, 0, 0}, 55.0),
+  add("stretched torus", ShapeKind::torus, {0.65, 0.22, 0.0}, {1.75, 0.85, 1.0}, quaternion({1, 0, 0}, 55.0),
       {1.3, 0.8, 0.9});
   addPointLight(gltf, "key", {-4.0, 7.0, 6.0}, {.color = dvec3(0.75)});
   addPointLight(gltf, "fill", {6.0, 4.0, 4.0}, {.color = dvec3(0.3)});
-  addCamera(gltf, {.eye = {0.0, 3.6, 8.5}, .target = {0.0, 0.7, -0.3}, .yFovDegrees = 48.0});
+  addCamera(gltf, {.eye = {0.0, 4.6, 8.0}, .target = {0.0, 0.7, 0.0}, .yFovDegrees = 42.0});
   setAtmosphere(gltf, 0.15, {0.10, 0.12, 0.15});
 }
 

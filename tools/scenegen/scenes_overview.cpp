@@ -14,8 +14,8 @@ namespace {
 using glm::dvec3;
 
 void addTeapot(GltfBuilder& gltf, const dvec3& at) {
-  const int gold = gltf.addMaterial(presetMaterial("polishedGold"));
-  const int mesh = gltf.addMesh("teapot", {{gltf.addGeometry(withoutUv(tessellateTeapot(7))), gold}});
+  const int brass = gltf.addMaterial(presetMaterial("brass"));
+  const int mesh = gltf.addMesh("teapot", {{gltf.addGeometry(withoutUv(tessellateTeapot(7))), brass}});
   Json node = meshNode("teapot", mesh, at);
   const double half = -17.0 * std::numbers::pi / 180.0;
   node["rotation"] = {0.0, std::sin(half), 0.0, std::cos(half)};
@@ -41,8 +41,8 @@ void addBox(GltfBuilder& gltf, int material, double x, double z) {
 }
 
 void overview(GltfBuilder& gltf) {
-  const int ivory = gltf.addMaterial(matte("ivory squares", {0.74, 0.72, 0.67}));
-  const int slate = gltf.addMaterial(matte("slate squares", {0.17, 0.20, 0.26}));
+  const int ivory = gltf.addMaterial(matte("ivory squares", {0.62, 0.60, 0.55}));
+  const int slate = gltf.addMaterial(matte("slate squares", {0.12, 0.15, 0.20}));
   addCheckerFloor(gltf, 7.0, 14, ivory, slate);
   addTeapot(gltf, {-0.3, 0.0, 0.0});
   const int mirror = gltf.addMaterial(classicMaterial(
@@ -58,15 +58,15 @@ void overview(GltfBuilder& gltf) {
   gltf.addRoot(shapeNode(gltf, "cone", {ShapeKind::cone, {0.6, 1.35, 0.0}, 28}, amber, {-2.65, 0.675, 0.6}));
   addRing(gltf, teal, -1.05, 2.5);
   addBox(gltf, crimson, -2.75, -2.0);
-  addPointLight(gltf, "key", {-4.5, 8.0, 6.0}, {.color = {0.80, 0.75, 0.66}});
-  addPointLight(gltf, "sky", {6.5, 6.0, 4.5}, {.color = {0.20, 0.27, 0.42}});
+  addPointLight(gltf, "key", {-4.5, 8.0, 6.0}, {.color = {1.10, 1.02, 0.88}});
+  addPointLight(gltf, "sky", {6.5, 6.0, 4.5}, {.color = {0.34, 0.34, 0.36}});
   addPointLight(gltf, "rim", {2.0, 5.0, -7.0}, {.color = {0.32, 0.19, 0.12}});
   addCamera(gltf, {.eye = {0.7, 4.6, 9.2}, .target = {-0.15, 0.7, -0.1}, .yFovDegrees = 42.0, .zNear = 0.5});
-  setAtmosphere(gltf, 0.2, {0.055, 0.085, 0.15});
+  setAtmosphere(gltf, 0.3, {0.055, 0.085, 0.15});
 }
 
 constexpr SceneRow kRows[] = {
-    {"showcase/overview", "the demonstration: gold teapot, mirror, glass and painted shapes, three lights", overview},
+    {"showcase/overview", "the demonstration: brass teapot, mirror, glass and painted shapes, three lights", overview},
 };
 
 }  // namespace

@@ -43,15 +43,15 @@ void teapots(GltfBuilder& gltf) {
     for (int column = 0; column < 4; ++column) {
       const std::string preset = presets[row][column];
       const int mesh = gltf.addMesh(preset, {{pot, gltf.addMaterial(presetMaterial(preset))}});
-      const dvec3 at((column - 1.5) * 6.8, 0.0, row == 0 ? -6.0 : 6.0);
-      gltf.addRoot(rotatedAboutY(meshNode(preset, mesh, at), -38.0));
+      const dvec3 at((column - 1.5) * 5.2 - 0.3, 0.0, row == 0 ? -5.0 : 4.0);
+      gltf.addRoot(rotatedAboutY(meshNode(preset, mesh, at), -40.0));
     }
   }
-  addFloor(gltf, dvec3(0.0), 34.0, 34.0, gltf.addMaterial(matte("floor", {0.38, 0.38, 0.39})));
-  addPointLight(gltf, "key", {-14.0, 22.0, 18.0}, {.color = dvec3(0.85)});
-  addPointLight(gltf, "fill", {18.0, 12.0, 14.0}, {.color = dvec3(0.3, 0.32, 0.36)});
-  addCamera(gltf, {.eye = {0.0, 35.0, 41.0}, .target = {0.0, 0.6, 0.6}, .yFovDegrees = 34.5, .zNear = 1.0});
-  setAtmosphere(gltf, 0.3, {0.08, 0.09, 0.11});
+  addFloor(gltf, dvec3(0.0), 34.0, 34.0, gltf.addMaterial(matte("floor", {0.30, 0.30, 0.31})));
+  addPointLight(gltf, "key", {-12.0, 20.0, 22.0}, {.color = dvec3(1.25, 1.2, 1.1)});
+  addPointLight(gltf, "fill", {18.0, 10.0, 16.0}, {.color = dvec3(0.45)});
+  addCamera(gltf, {.eye = {0.0, 27.0, 29.0}, .target = {0.0, 0.8, -0.4}, .yFovDegrees = 38.0, .zNear = 1.0});
+  setAtmosphere(gltf, 0.35, {0.08, 0.09, 0.11});
 }
 
 void spheresChecker(GltfBuilder& gltf) {
@@ -150,8 +150,8 @@ void cornell(GltfBuilder& gltf) {
       cornellBlock({dvec3(423.0, 330.0, 247.0), dvec3(265.0, 330.0, 296.0), dvec3(314.0, 330.0, 456.0),
                     dvec3(472.0, 330.0, 406.0)}),
       white);
-  const int bulb = gltf.addLight(khrLight("bulb", "point", {1.0, 0.86, 0.66}, 550000.0));
-  Json node = {{"name", "bulb"}, {"translation", {278.0, 520.0, 279.5}}};
+  const int bulb = gltf.addLight(khrLight("bulb", "point", {1.0, 0.86, 0.66}, 400000.0));
+  Json node = {{"name", "bulb"}, {"translation", {278.0, 490.0, 240.0}}};
   node["extensions"]["KHR_lights_punctual"]["light"] = bulb;
   gltf.addRoot(std::move(node));
   addCamera(gltf, {.eye = {278.0, 273.0, -800.0},
@@ -159,7 +159,7 @@ void cornell(GltfBuilder& gltf) {
                    .yFovDegrees = 39.3,
                    .zNear = 10.0,
                    .zFar = 5000.0});
-  setAtmosphere(gltf, 0.06, dvec3(0.0));
+  setAtmosphere(gltf, 0.12, dvec3(0.0));
 }
 
 // Three lights around the line of sight. White where all reach, yellow, cyan and magenta where one is turned away or,
@@ -179,7 +179,7 @@ void threeLights(GltfBuilder& gltf) {
   for (int i = 0; i < 3; ++i) {
     const double angle = std::numbers::pi * (0.5 + 2.0 * i / 3.0);
     dvec3 color(0.0);
-    color[i] = 0.95;
+    color[i] = 0.8;
     addPointLight(gltf, names[i], {6.0 * std::cos(angle), 6.0 * std::sin(angle), 7.0}, {.color = color});
   }
   addCamera(gltf, {.eye = {0.0, 0.0, 9.0}, .target = dvec3(0.0), .yFovDegrees = 35.0, .zNear = 0.5});
