@@ -25,6 +25,9 @@ struct NodeShape {
 };
 NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount);
 
+// gltf_specular_glossiness.cpp: the archived KHR_materials_pbrSpecularGlossiness as metallic-roughness, factors only.
+void readSpecularGlossiness(const JsonAt& extension, Material& material);
+
 // gltf_material.cpp: all materials, and those images that they use, decoded.
 void buildMaterials(const Source& source, Scene& scene);
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,21 @@ class Budget {
   std::uint64_t usedBytes_ = 0;
 };
 
+// Warnings that a file can give rise to many times over: each text is said once, with its first place and how many
+// more.
+class Notes {
+ public:
+  void add(const JsonAt& at, const std::string& what);
+  void log() const;
+
+ private:
+  struct Entry {
+    std::string place;
+    std::size_t count = 0;
+  };
+  std::map<std::string, Entry> entries_;
+};
+
 struct Document {
   Document(const std::filesystem::path& file, const LoadOptions& options);
   Document(const Document&) = delete;
@@ -40,12 +56,14 @@ struct Document {
   std::filesystem::path folder;  // canonical; nothing outside it is read
   std::string fileName;          // as the user gave it, for messages
   Json json;
+  bool isGlb = false;
   bool hasGlbChunk = false;
   Bytes glbChunk;              // moved into its buffer
   std::vector<Bytes> buffers;  // by buffer index, each as long as its byteLength; empty for meshopt's fallbacks
   std::vector<Bytes> images;   // still encoded
   std::uint64_t fileBytes = 0;
   Budget budget;
+  Notes notes;
 };
 
 // gltf_validate*.cpp: shape of the JSON, references, ranges, cycles. Knows nothing of the bytes behind it.

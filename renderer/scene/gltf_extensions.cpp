@@ -109,6 +109,7 @@ Atmosphere readAtmosphere(const JsonAt& extension) {
 void checkDisplacement(const JsonAt& extension, std::size_t textureCount) {
   extension.onlyKnows({"displacementTexture", "scale", "bias"});
   const JsonAt texture = extension.at("displacementTexture");
+  texture.onlyKnows({"index", "texCoord"});
   texture.at("index").reference(textureCount, "texture");
   integerOr(texture, "texCoord", 0);
   numberOr(extension, "scale", 1.0);

@@ -139,6 +139,18 @@ void Budget::charge(std::uint64_t bytes, const JsonAt& forWhat) {
   usedBytes_ += bytes;
 }
 
+void Notes::add(const JsonAt& at, const std::string& what) {
+  Entry& entry = entries_[what];
+  if (entry.count++ == 0) entry.place = at.place();
+}
+
+void Notes::log() const {
+  for (const auto& [what, entry] : entries_) {
+    const std::string more = entry.count > 1 ? fmt::format(" (and {} more like it)", entry.count - 1) : "";
+    logWarning(entry.place + ": " + what + more);
+  }
+}
+
 Document::Document(const fs::path& file, const LoadOptions& options)
     : fileName(file.string()), budget(memoryLimitBytes(options.maxBytes)) {
   std::error_code error;
@@ -154,6 +166,7 @@ Document::Document(const fs::path& file, const LoadOptions& options)
   const std::span<const std::byte> all(bytes);
   if (bytes.size() >= 4 && word(all, 0) == kGlbMagic) {
     const Glb glb = splitGlb(fileName, all);
+    isGlb = true;
     json = parseJson(fileName, glb.json);
     if (glb.bin) {
       const auto* begin = reinterpret_cast<const unsigned char*>(glb.bin->data());

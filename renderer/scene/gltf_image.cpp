@@ -82,6 +82,7 @@ void toFloats(const T* samples, float largest, std::vector<float>& out) {
 }  // namespace
 
 TextureImage decodeImage(const Bytes& encoded, const JsonAt& at, Budget& budget) {
+  if (encoded.empty()) at.fail("has no bytes behind it");
   if (!isPng(encoded) && !isJpeg(encoded)) at.fail("is neither PNG nor JPEG, the formats that glTF allows");
   if (encoded.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) at.fail("is larger than 2 GiB");
   const int size = static_cast<int>(encoded.size());
@@ -90,7 +91,7 @@ TextureImage decodeImage(const Bytes& encoded, const JsonAt& at, Budget& budget)
   int channels = 0;
   decoderBytesLeft = decoderBytes(0, encoded.size());
   if (!stbi_info_from_memory(encoded.data(), size, &width, &height, &channels) || width < 1 || height < 1) {
-    at.fail("its image header is broken");
+    at.fail("its image header is broken or promises too many pixels");
   }
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   budget.charge(pixels * 4 * sizeof(float), at);

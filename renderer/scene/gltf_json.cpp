@@ -148,7 +148,11 @@ std::string JsonAt::oneOf(std::initializer_list<std::string_view> names) const {
 void JsonAt::onlyKnows(std::initializer_list<std::string_view> names) const {
   object();
   for (const auto& [key, ignored] : value_->items()) {
-    if (key == "extensions" || key == "extras") continue;
+    if (key == "extras") continue;
+    if (key == "extensions") {
+      at(key).object();
+      continue;
+    }
     if (std::find(names.begin(), names.end(), key) == names.end()) {
       at(key).fail(fmt::format("is not known here; there are {}", joined(names)));
     }

@@ -134,7 +134,7 @@ void addDefaults(Scene& scene, const Document& document) {
   if (scene.lights.empty()) {
     scene.lights.push_back(headlight(scene.cameras[0]));
     scene.defaultLight = true;
-    logInfo(document.fileName + ": has no light, a headlight of pi lux shines along the view of camera '" +
+    logInfo(document.fileName + ": has no light, a headlight of pi lux shines along the view of camera 0 '" +
             scene.cameras[0].name + "'");
   }
 }
@@ -171,6 +171,7 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   fillStats(*model, document, scene);
   fillBoundsAndCounts(scene);
   checkExtent(scene, document);
+  document.notes.log();
   addDefaults(scene, document);
   return scene;
 }

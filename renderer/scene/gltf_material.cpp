@@ -43,6 +43,7 @@ class MaterialBuilder {
     out.name = in.name;
     readCore(in, out);
     readTextures(in, at, out);
+    if (const auto archived = at.extension("KHR_materials_pbrSpecularGlossiness")) readArchived(*archived, out);
     readExtensions(at, out);
     return out;
   }
@@ -86,11 +87,12 @@ class MaterialBuilder {
     readTextureTransform(info, use);
     const tinygltf::Texture& texture = source_.model.textures[static_cast<std::size_t>(index)];
     if (texture.source < 0) {
-      info.warn("its texture has no image that is supported and is left out");
+      source_.document.notes.add(info, "its texture has no image that is supported and is left out");
       return use;
     }
     if (use.texCoord > 1) {
-      info.warn(fmt::format("reads TEXCOORD_{}; only 0 and 1 are supported, the texture is left out", use.texCoord));
+      source_.document.notes.add(
+          info, fmt::format("reads TEXCOORD_{}; only 0 and 1 are supported, the texture is left out", use.texCoord));
       return use;
     }
     if (texture.sampler >= 0) {
@@ -102,6 +104,17 @@ class MaterialBuilder {
     }
     use.image = image(static_cast<std::size_t>(texture.source));
     return use;
+  }
+
+  void readArchived(const JsonAt& archived, Material& out) {
+    readSpecularGlossiness(archived, out);
+    if (const auto info = archived.find("diffuseTexture")) {
+      const std::size_t index = info->at("index").reference(source_.document.count("textures"), "texture");
+      const std::int64_t texCoord = integerOr(*info, "texCoord", 0, std::numeric_limits<int>::max());
+      out.baseColorTexture = texture(static_cast<int>(index), static_cast<int>(texCoord), archived, "diffuseTexture");
+    }
+    out.metallicRoughnessTexture = {};
+    ignoreTexture(archived, "specularGlossinessTexture");
   }
 
   int image(std::size_t index) {
@@ -140,7 +153,7 @@ class MaterialBuilder {
     out.hasIor = true;
   }
 
-  static void readVolume(const JsonAt& volume, Material& out) {
+  void readVolume(const JsonAt& volume, Material& out) const {
     // A thickness of 0, the default, means a thin wall (KHR_materials_volume, "Properties").
     out.hasVolume = numberOr(volume, "thicknessFactor", 0.0, Range::atLeast(0.0)) > 0.0;
     out.attenuationColor = vec3Or(volume, "attenuationColor", out.attenuationColor, kUnit);
@@ -150,8 +163,9 @@ class MaterialBuilder {
     ignoreTexture(volume, "thicknessTexture");
   }
 
-  static void ignoreTexture(const JsonAt& extension, const char* key) {
-    if (const auto texture = extension.find(key)) texture->warn("is not supported yet; the factor alone counts");
+  void ignoreTexture(const JsonAt& extension, const char* key) const {
+    if (const auto texture = extension.find(key))
+      source_.document.notes.add(*texture, "is not supported yet; the factor alone counts");
   }
 
   const Source& source_;

@@ -22,17 +22,17 @@ class PrimitiveBuilder {
   // Nothing when it draws no triangles. With a skin, `world` gets the positions.
   std::optional<Primitive> build(std::vector<glm::dvec3>& world) {
     if (primitive_.mode < TINYGLTF_MODE_TRIANGLES) {
-      at_.warn("draws points or lines, which are left out");
+      source_.document.notes.add(at_, "draws points or lines, which are left out");
       return std::nullopt;
     }
     if (!accessor("POSITION")) {
-      at_.warn("has no POSITION and is left out");
+      source_.document.notes.add(at_, "has no POSITION and is left out");
       return std::nullopt;
     }
     readAttributes();
     out_.indices = triangles(vertexIndices());
     if (out_.indices.empty()) {
-      at_.warn("draws no triangle");
+      source_.document.notes.add(at_, "draws no triangle");
       return std::nullopt;
     }
     if (posing_.skinned() && accessor("JOINTS_0")) {
@@ -87,7 +87,8 @@ class PrimitiveBuilder {
   std::vector<std::uint32_t> triangles(std::vector<std::uint32_t> in) const {
     const bool isStrip = primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
     if (!isStrip && primitive_.mode != TINYGLTF_MODE_TRIANGLE_FAN) {
-      if (in.size() % 3 != 0) at_.warn("its vertices do not fill the last triangle, which is left out");
+      if (in.size() % 3 != 0)
+        source_.document.notes.add(at_, "its vertices do not fill the last triangle, which is left out");
       in.resize(in.size() / 3 * 3);
       return in;
     }
@@ -124,27 +125,28 @@ const std::vector<glm::vec2>& uvOf(const Primitive& primitive, const TextureUse&
   return use.texCoord == 1 ? primitive.uv1 : primitive.uv0;
 }
 
-void warnOfMissingUv(const Primitive& primitive, const Material& material, const JsonAt& at) {
+void warnOfMissingUv(const Primitive& primitive, const Material& material, const JsonAt& at, Notes& notes) {
   for (const TextureUse* use : {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
                                 &material.occlusionTexture, &material.emissiveTexture}) {
     if (use->present() && uvOf(primitive, *use).empty()) {
-      at.warn(fmt::format("its material reads TEXCOORD_{}, which it does not have; (0, 0) is taken", use->texCoord));
+      notes.add(at,
+                fmt::format("its material reads TEXCOORD_{}, which it does not have; (0, 0) is taken", use->texCoord));
     }
   }
 }
 
-void finish(Primitive& primitive, const Material& material, const JsonAt& at, Budget& budget) {
-  warnOfMissingUv(primitive, material, at);
+void finish(Primitive& primitive, const Material& material, const JsonAt& at, Document& document) {
+  warnOfMissingUv(primitive, material, at, document.notes);
   // Splitting makes every corner a vertex of at most 80 bytes; tangents add at most as much again.
-  budget.charge(primitive.indices.size() * 80, at);
+  document.budget.charge(primitive.indices.size() * 80, at);
   if (primitive.normals.empty()) {
     makeFlatNormals(primitive);
-  } else if (const std::size_t count = repairNormals(primitive); count > 0) {
-    at.warn(fmt::format("{} normals are zero or not finite; they become the triangle's", count));
+  } else if (repairNormals(primitive) > 0) {
+    document.notes.add(at, "has normals that are zero or not finite; they become the triangle's");
   }
   if (!primitive.tangents.empty()) {
-    if (const std::size_t count = repairTangents(primitive); count > 0) {
-      at.warn(fmt::format("{} tangents cannot be used; they become some direction across the normal", count));
+    if (repairTangents(primitive) > 0) {
+      document.notes.add(at, "has tangents that cannot be used; they become some direction across the normal");
     }
   } else if (material.normalTexture.present() && !uvOf(primitive, material.normalTexture).empty()) {
     makeTangents(primitive, uvOf(primitive, material.normalTexture));
@@ -202,8 +204,7 @@ PosedMesh buildMesh(const Source& source, std::size_t index, const Posing& posin
   for (std::size_t p = 0; p < posed.mesh.primitives.size(); ++p) {
     Primitive& primitive = posed.mesh.primitives[p];
     const auto material = static_cast<std::size_t>(primitive.material);
-    finish(primitive, material < materials.size() ? materials[material] : defaultMaterial, places[p],
-           source.document.budget);
+    finish(primitive, material < materials.size() ? materials[material] : defaultMaterial, places[p], source.document);
   }
   return posed;
 }

@@ -40,6 +40,7 @@ std::vector<Influences> readInfluences(const Source& source, const tinygltf::Pri
 }
 
 // Weighted sum of the joints' matrices; weights are scaled to a sum of one (glTF allows them a rounding error).
+// Vertices without any weight follow joint 0.
 glm::dmat4 blended(const std::vector<Influences>& sets, std::size_t vertex, const Posing& posing, const JsonAt& at) {
   glm::dmat4 sum(0.0);
   double total = 0.0;
@@ -56,11 +57,7 @@ glm::dmat4 blended(const std::vector<Influences>& sets, std::size_t vertex, cons
       total += weight;
     }
   }
-  if (total == 0.0) {
-    at.warn("has vertices whose joint weights are all 0; they follow joint 0");
-    return posing.worldFromBind[0];
-  }
-  return sum / total;
+  return total > 0.0 ? sum / total : posing.worldFromBind[0];
 }
 
 glm::dvec3 unitOrZero(const glm::dvec3& v) {

@@ -81,9 +81,12 @@ Bytes dataUri(const JsonAt& at, Budget& budget) {
   budget.charge(uri.size(), at);
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos) at.fail("is a data URI without data");
-  std::string_view header(uri.data() + 5, comma - 5);
-  if (!header.ends_with(";base64")) at.fail("is a data URI that is not in base64, the only kind that glTF allows");
-  return base64Decoded(at, std::string_view(uri).substr(comma + 1));
+  const std::string_view header = std::string_view(uri).substr(5, comma - 5);
+  if (header.find(";;") != std::string_view::npos) at.fail("is a data URI with an empty parameter");
+  const std::string_view data = std::string_view(uri).substr(comma + 1);
+  if (header.ends_with(";base64")) return base64Decoded(at, data);
+  const std::string plain = percentDecoded(at, data);
+  return Bytes(plain.begin(), plain.end());
 }
 
 bool liesInside(const fs::path& folder, const fs::path& file) {
@@ -132,17 +135,19 @@ bool isMeshoptFallback(const JsonAt& buffer) {
   return extension && booleanOr(*extension, "fallback", false);
 }
 
-Bytes bufferBytes(const JsonAt& buffer, std::size_t index, Document& document) {
-  if (const auto uri = buffer.find("uri")) return bytesOf(*uri, document);
-  if (index == 0 && document.hasGlbChunk) return std::move(document.glbChunk);
-  buffer.fail("has neither a uri nor the binary chunk of a GLB file");
-}
-
 void loadBuffer(const JsonAt& buffer, std::size_t index, Document& document) {
   Bytes& bytes = document.buffers[index];
-  // What a fallback holds is never read: its compressed twin is decoded instead.
-  if (isMeshoptFallback(buffer) && !buffer.find("uri")) return;
-  bytes = bufferBytes(buffer, index, document);
+  if (const auto uri = buffer.find("uri")) {
+    bytes = bytesOf(*uri, document);
+  } else if (index == 0 && document.hasGlbChunk) {
+    bytes = std::move(document.glbChunk);
+  } else if (index == 0 && document.isGlb && !isMeshoptFallback(buffer)) {
+    buffer.fail("has neither a uri nor a binary chunk in the GLB file");
+  } else {
+    // An extension may stand in for it, as meshopt's compressed twins do. Whoever reads it finds nothing and says so.
+    if (!isMeshoptFallback(buffer)) buffer.warn("has no uri, so there is nothing behind it");
+    return;
+  }
   const auto length = static_cast<std::uint64_t>(buffer.at("byteLength").integer());
   if (bytes.size() < length) {
     buffer.fail(fmt::format("byteLength is {}, but there are only {} bytes", length, bytes.size()));
@@ -166,7 +171,7 @@ void loadResources(Document& document) {
     const Bytes& buffer = document.buffers[static_cast<std::size_t>(view.at("buffer").integer())];
     const std::int64_t offset = integerOr(view, "byteOffset", 0);
     const std::int64_t end = offset + view.at("byteLength").integer();
-    if (static_cast<std::uint64_t>(end) > buffer.size()) image.fail("its bufferView has no bytes behind it");
+    if (static_cast<std::uint64_t>(end) > buffer.size()) continue;  // said when a material uses it
     document.budget.charge(static_cast<std::uint64_t>(end - offset), image);
     document.images[i].assign(buffer.begin() + offset, buffer.begin() + end);
   }

@@ -16,7 +16,7 @@ constexpr std::array kTopLevelArrays = {"accessors", "animations", "buffers", "b
                                         "scenes",    "textures",   "skins"};
 
 // Honoured in whole, or with exceptions that the reader names.
-constexpr std::array<std::string_view, 16> kKnownExtensions = {"CROSSLIGHT_lights_classic",
+constexpr std::array<std::string_view, 17> kKnownExtensions = {"CROSSLIGHT_lights_classic",
                                                                "CROSSLIGHT_materials_classic",
                                                                "CROSSLIGHT_materials_displacement",
                                                                "CROSSLIGHT_node_shape",
@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 16> kKnownExtensions = {"CROSSLIGHT_light
                                                                "KHR_lights_punctual",
                                                                "KHR_materials_emissive_strength",
                                                                "KHR_materials_ior",
+                                                               "KHR_materials_pbrSpecularGlossiness",
                                                                "KHR_materials_transmission",
                                                                "KHR_materials_unlit",
                                                                "KHR_materials_volume",

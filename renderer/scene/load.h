@@ -11,7 +11,7 @@
 namespace crosslight {
 
 struct LoadOptions {
-  std::string scene;         // name or index; empty: the file's default, else the first
+  std::string scene{};       // name or index; empty: the file's default, else the first
   double timeSeconds = 0.0;  // where animations are evaluated
   bool animate = false;      // false: the rest pose as the nodes have it, animations are left alone
   std::uint64_t maxBytes = std::uint64_t{8} << 30;  // of file, buffers and decoded images together

@@ -31,7 +31,7 @@ enum class Filter { linear, nearest };
 
 // A material's use of an image.
 struct TextureUse {
-  int image = -1;  // index into Scene::images; -1: none
+  int image = -1;    // index into Scene::images; -1: none
   int texCoord = 0;  // 0 or 1
   Wrap wrapU = Wrap::repeat;
   Wrap wrapV = Wrap::repeat;
@@ -92,9 +92,9 @@ struct Primitive {
   std::vector<glm::vec4> tangents;  // xyz, w = +1 or -1
   std::vector<glm::vec2> uv0;
   std::vector<glm::vec2> uv1;
-  std::vector<glm::vec4> colors;        // linear RGBA
-  std::vector<std::uint32_t> indices;   // 3 per triangle, each < positions.size()
-  int material = 0;                     // index into Scene::materials (a default one is appended when needed)
+  std::vector<glm::vec4> colors;       // linear RGBA
+  std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()
+  int material = 0;                    // index into Scene::materials (a default one is appended when needed)
   bool flatNormals = false;
 };
 
@@ -103,8 +103,8 @@ struct Mesh {
   std::vector<Primitive> primitives;
 };
 
-// A node that draws a mesh. Skinned and morphed nodes have a posed mesh of their own. A node with EXT_mesh_gpu_instancing
-// is one instance per element.
+// A node that draws a mesh. Skinned and morphed nodes have a posed mesh of their own. A node with
+// EXT_mesh_gpu_instancing is one instance per element.
 struct MeshInstance {
   std::string name;
   int mesh = 0;
@@ -136,10 +136,10 @@ struct ClassicLight {
 struct Light {
   std::string name;
   LightType type = LightType::point;
-  glm::vec3 color{1.0f};           // linear
-  float intensity = 1.0f;          // candela (point, spot) or lux (directional)
-  std::optional<float> range;      // scene units
-  float innerConeAngle = 0.0f;     // radians, half angle
+  glm::vec3 color{1.0f};        // linear
+  float intensity = 1.0f;       // candela (point, spot) or lux (directional)
+  std::optional<float> range;   // scene units
+  float innerConeAngle = 0.0f;  // radians, half angle
   float outerConeAngle = 0.7853982f;
   std::optional<ClassicLight> classic;  // replaces color, intensity, range and the cones
   glm::dvec3 worldPosition{0.0};
@@ -149,12 +149,12 @@ struct Light {
 struct Camera {
   std::string name;
   bool orthographic = false;
-  double yFov = 0.7853981633974483;     // radians, perspective
-  std::optional<double> aspectRatio;    // width / height as the file has it; the output's resolution decides
-  double xMag = 1.0, yMag = 1.0;        // half extents, orthographic
+  double yFov = 0.7853981633974483;   // radians, perspective
+  std::optional<double> aspectRatio;  // width / height as the file has it; the output's resolution decides
+  double xMag = 1.0, yMag = 1.0;      // half extents, orthographic
   double zNear = 0.1;
-  std::optional<double> zFar;           // none: infinite (perspective only)
-  glm::dmat4 worldFromCamera{1.0};      // rigid: looks along -Z, up +Y
+  std::optional<double> zFar;       // none: infinite (perspective only)
+  glm::dmat4 worldFromCamera{1.0};  // rigid: looks along -Z, up +Y
 };
 
 enum class FogMode { none, linear, exp, exp2 };

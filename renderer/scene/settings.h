@@ -16,29 +16,29 @@ struct RenderSettings {
   Method method = Method::phong;
   std::uint32_t width = 512;
   std::uint32_t height = 512;
-  int camera = 0;              // index into Scene::cameras
-  std::uint32_t spp = 1;       // samples per pixel, the same sub-pixel positions in raster and rays; 1: the pixel's center
+  int camera = 0;         // index into Scene::cameras
+  std::uint32_t spp = 1;  // samples per pixel, the same sub-pixel positions in raster and rays; 1: the pixel's center
   PixelFilter filter = PixelFilter::box;
   std::uint32_t msaa = 1;      // raster only: coverage samples 1, 2, 4, 8
   std::uint32_t maxDepth = 5;  // whitted: ray segments after the primary one; 0 is direct light only
   std::uint64_t seed = 0;
-  bool shadows = true;         // whitted
-  bool reflection = true;      // whitted
-  bool refraction = true;      // whitted; off: transmitted light goes straight on
+  bool shadows = true;     // whitted
+  bool reflection = true;  // whitted
+  bool refraction = true;  // whitted; off: transmitted light goes straight on
   bool infiniteViewer = false;
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;
-  bool hiddenLines = false;    // wireframe: draw hidden edges too
+  bool hiddenLines = false;        // wireframe: draw hidden edges too
   bool clampVertexColors = false;  // gouraud and flat: as OpenGL's fixed function does
-  bool allEffects = false;     // compile and run everything instead of what the scene calls for
-  bool allowNonfinite = false; // NaN and Inf in the result are reported but do not fail the run
-  std::vector<std::string> aovs;  // names of kAovNames
+  bool allEffects = false;         // compile and run everything instead of what the scene calls for
+  bool allowNonfinite = false;     // NaN and Inf in the result are reported but do not fail the run
+  std::vector<std::string> aovs;   // names of kAovNames
 };
 
 // AOVs that raster and rays both deliver, in this order in every file. Point samples at the pixel's center but for
 // the four parts of direct light and the albedo, which are averaged over the samples as the picture is.
-inline constexpr const char* kAovNames[] = {"depth",      "position",    "normal",  "geometricNormal", "albedo",
-                                            "uv",         "instanceId",  "primitiveId", "materialId",  "ambient",
-                                            "diffuse",    "specular",    "emission"};
+inline constexpr const char* kAovNames[] = {"depth",   "position",   "normal",      "geometricNormal", "albedo",
+                                            "uv",      "instanceId", "primitiveId", "materialId",      "ambient",
+                                            "diffuse", "specular",   "emission"};
 
 }  // namespace crosslight
