@@ -19,15 +19,15 @@ std::string describePair(const A& a, const B& b) {
 
 }  // namespace crosslight
 
-#define CL_CHECK(condition)                                                        \
-  do {                                                                             \
+#define CL_CHECK(condition)                                                          \
+  do {                                                                               \
     if (!(condition)) ::crosslight::checkFailed(#condition, "", __FILE__, __LINE__); \
   } while (false)
-#define CL_CHECK_OP(op, a, b)                                                                                    \
-  do {                                                                                                           \
-    const auto& clA = (a);                                                                                       \
-    const auto& clB = (b);                                                                                       \
-    if (!(clA op clB))                                                                                           \
+#define CL_CHECK_OP(op, a, b)                                                                                 \
+  do {                                                                                                        \
+    const auto& clA = (a);                                                                                    \
+    const auto& clB = (b);                                                                                    \
+    if (!(clA op clB))                                                                                        \
       ::crosslight::checkFailed(#a " " #op " " #b, ::crosslight::describePair(clA, clB), __FILE__, __LINE__); \
   } while (false)
 #define CL_CHECK_EQ(a, b) CL_CHECK_OP(==, a, b)

@@ -5,6 +5,6 @@ namespace crosslight {
 
 void installInterruptHandler();  // SIGINT and SIGTERM set the flag; a second SIGINT ends the process at once
 bool interruptRequested();
-void throwIfInterrupted();       // throws Interrupted when the flag is set
+void throwIfInterrupted();  // throws Interrupted when the flag is set
 
 }  // namespace crosslight

@@ -1,9 +1,9 @@
 // What is written is what is read: bits in EXR and PFM, codes in PNG, within the format's bound in HDR.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 
@@ -21,7 +21,7 @@ using testing::TemporaryFolder;
 // Bit patterns, so that NaN equals itself and -0 does not equal 0.
 std::vector<std::uint32_t> bitsOf(const std::vector<float>& samples) {
   std::vector<std::uint32_t> bits(samples.size());
-  std::memcpy(bits.data(), samples.data(), samples.size() * sizeof(float));
+  std::transform(samples.begin(), samples.end(), bits.begin(), [](float x) { return std::bit_cast<std::uint32_t>(x); });
   return bits;
 }
 
