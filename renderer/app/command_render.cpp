@@ -58,6 +58,7 @@ void run(const RenderOptions& options, const CommonOptions& common) {
   gpu::Device device = openDevice(options.device);
   timesMs.emplace_back("instance", device.openTimes().instanceMs);
   timesMs.emplace_back("device", device.openTimes().deviceMs);
+  logVerbose("drawing on " + device.info().name);
   RenderResult result = renderWithProgress(device, scene, options, settings);
   timesMs.insert(timesMs.end(), result.report.timesMs.begin(), result.report.timesMs.end());
   throwIfInterrupted();

@@ -1,0 +1,115 @@
+#include "app/render_options.h"
+
+#include <gmock/gmock.h>
+
+#include <tuple>
+
+#include "app/render_job.h"
+#include "app/set_keys.h"
+#include "base/error.h"
+
+namespace crosslight {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+// Every setting that --set may touch.
+auto touched(const RenderSettings& s) {
+  return std::tuple(s.shadows, s.reflection, s.refraction, s.flatVertex, s.hiddenLines, s.infiniteViewer, s.twoSided,
+                    s.clampVertexColors);
+}
+
+std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no UsageError";
+}
+
+TEST(SetKeys, firstValueIsTheDefaultAndEveryOtherOneChangesSomething) {
+  for (const SetKey& row : setKeys()) {
+    ASSERT_GE(row.values.size(), 2u) << row.key;
+    for (const std::string& value : row.values) {
+      RenderSettings settings;
+      applySet(std::string(row.key) + "=" + value, settings);
+      const bool same = touched(settings) == touched(RenderSettings{});
+      EXPECT_EQ(same, value == row.values.front()) << row.key << "=" << value;
+    }
+  }
+}
+
+TEST(SetKeys, twoValuesNeverMeanTheSame) {
+  for (const SetKey& row : setKeys()) {
+    for (std::size_t a = 0; a < row.values.size(); ++a) {
+      for (std::size_t b = a + 1; b < row.values.size(); ++b) {
+        RenderSettings first, second;
+        applySet(std::string(row.key) + "=" + row.values[a], first);
+        applySet(std::string(row.key) + "=" + row.values[b], second);
+        EXPECT_NE(touched(first), touched(second)) << row.key << " " << row.values[a] << " " << row.values[b];
+      }
+    }
+  }
+}
+
+TEST(SetKeys, unknownKeysAndValuesListWhatThereIs) {
+  RenderSettings settings;
+  EXPECT_THAT(messageOf([&] { applySet("shadow=on", settings); }), HasSubstr("Did you mean 'shadows'?"));
+  EXPECT_THAT(messageOf([&] { applySet("shadows=offf", settings); }), HasSubstr("Did you mean 'off'?"));
+  EXPECT_THAT(messageOf([&] { applySet("shadows", settings); }), HasSubstr("a value is missing"));
+  EXPECT_THAT(messageOf([&] { applySet("shadows=", settings); }), HasSubstr("a value is missing"));
+  EXPECT_THAT(messageOf([&] { applySet("=on", settings); }), HasSubstr("unknown key ''"));
+}
+
+TEST(RenderOptions, resolutionIsWidthTimesHeight) {
+  EXPECT_EQ(resolutionOf("640x480").width, 640u);
+  EXPECT_EQ(resolutionOf("640x480").height, 480u);
+  EXPECT_EQ(resolutionOf("1X65536").height, 65536u);
+  for (const char* wrong : {"", "640", "x", "640x", "x480", "0x480", "640x0", "65537x1", "-1x5", "640x480x2", "6.5x4",
+                            "4294967297x1", "640 x 480", "+5x5"}) {
+    EXPECT_THAT(messageOf([&] { resolutionOf(wrong); }), HasSubstr("e.g. 640x480")) << wrong;
+  }
+}
+
+TEST(RenderOptions, aovsKeepTheOrderOfTheFileWhateverTheOrderOfTheWords) {
+  EXPECT_THAT(aovsOf(""), SizeIs(0));
+  EXPECT_THAT(aovsOf("normal,depth,normal"), ElementsAre("depth", "normal"));
+  EXPECT_THAT(aovsOf("all"), SizeIs(std::size(kAovNames)));
+  EXPECT_THAT(messageOf([] { aovsOf("depth,dept"); }), HasSubstr("Did you mean 'depth'?"));
+  EXPECT_THAT(messageOf([] { aovsOf(",depth"); }), HasSubstr("unknown AOV ''"));
+}
+
+TEST(RenderOptions, defaultsAreThoseOfTheLibrary) {
+  RenderOptions options;
+  options.scene = "scene.gltf";
+  options.output = "out.png";
+  const RenderSettings parsed = checkedSettings(options), fresh;
+  EXPECT_EQ(touched(parsed), touched(fresh));
+  EXPECT_EQ(std::tuple(parsed.method, parsed.width, parsed.height, parsed.spp, parsed.filter, parsed.msaa,
+                       parsed.maxDepth, parsed.seed, parsed.allEffects, parsed.allowNonfinite, parsed.aovs),
+            std::tuple(fresh.method, fresh.width, fresh.height, fresh.spp, fresh.filter, fresh.msaa, fresh.maxDepth,
+                       fresh.seed, fresh.allEffects, fresh.allowNonfinite, fresh.aovs));
+  const DisplayTransform display = checkedDisplay(options), freshDisplay;
+  EXPECT_EQ(display.toneMap, freshDisplay.toneMap);
+  EXPECT_EQ(display.exposureStops, freshDisplay.exposureStops);
+}
+
+TEST(RenderOptions, aovsNeedAFormatWithLayers) {
+  RenderOptions options;
+  options.scene = "scene.gltf";
+  options.output = "out.png";
+  options.aovs = "depth";
+  EXPECT_THAT(messageOf([&] { checkedSettings(options); }), HasSubstr("-o out.exr"));
+  options.output = "out.exr";
+  EXPECT_THAT(checkedSettings(options).aovs, ElementsAre("depth"));
+}
+
+TEST(RenderOptions, everyMethodHasANameThatLeadsBack) {
+  for (const Method method : allMethods()) EXPECT_EQ(methodOf(nameOf(method)), method);
+}
+
+}  // namespace
+}  // namespace crosslight
