@@ -97,7 +97,7 @@ class Film {
 };
 
 // Sub-pixel positions of `count` samples under a filter, the same for every pixel and every technique: for one sample
-// the pixel's center; else a (0,2)-sequence (Sobol 1967), shifted by the seed, warped to the filter's density.
+// the pixel's center; else a (0,2)-sequence (Sobol 1967), moved by the seed, warped to the filter's density.
 enum class FilterShape { box, tent, gaussian };
 std::vector<glm::vec2> samplePattern(std::uint32_t count, FilterShape filter, std::uint64_t seed);
 

@@ -61,17 +61,18 @@ double warp(double u, FilterShape filter) {
 
 std::vector<glm::vec2> samplePattern(std::uint32_t count, FilterShape filter, std::uint64_t seed) {
   if (count <= 1) return {glm::vec2(0.5f)};
-  // Samples stand in the middle of their elementary intervals: never on a pixel's edge.
-  const double half = 0.5 / static_cast<double>(std::bit_ceil(count));
-  const std::uint32_t shiftX = seed == 0 ? 0u : mix(2 * seed);
-  const std::uint32_t shiftY = seed == 0 ? 0u : mix(2 * seed + 1);
-  std::vector<glm::vec2> offsets;
-  const auto place = [&](std::uint32_t bits) {
-    const double cells = static_cast<double>(std::bit_ceil(count));
-    const double u = std::floor(std::ldexp(static_cast<double>(bits), -32) * cells) / cells + half;
-    return static_cast<float>(warp(u, filter));
+  // Seed 0: samples stand in the middle of their elementary intervals, never on a pixel's edge. Other seeds shift the
+  // sequence digitally and move each sample within its interval.
+  const double cells = static_cast<double>(std::bit_ceil(count));
+  const auto place = [&](std::uint32_t bits, std::uint64_t dimension, std::uint32_t sample) {
+    const std::uint64_t key = (seed << 33) ^ (std::uint64_t{sample} << 1) ^ dimension;
+    const std::uint32_t shift = seed == 0 ? 0u : mix(2 * seed + dimension);
+    const double within = seed == 0 ? 0.5 : std::ldexp(static_cast<double>(mix(key)) + 0.5, -32);
+    const double cell = std::floor(std::ldexp(static_cast<double>(bits ^ shift), -32) * cells);
+    return static_cast<float>(warp((cell + within) / cells, filter));
   };
-  for (std::uint32_t i = 0; i < count; ++i) offsets.emplace_back(place(sobol0(i) ^ shiftX), place(sobol1(i) ^ shiftY));
+  std::vector<glm::vec2> offsets;
+  for (std::uint32_t i = 0; i < count; ++i) offsets.emplace_back(place(sobol0(i), 0, i), place(sobol1(i), 1, i));
   return offsets;
 }
 

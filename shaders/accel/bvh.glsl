@@ -3,7 +3,6 @@
 #ifndef CROSSLIGHT_BVH_GLSL
 #define CROSSLIGHT_BVH_GLSL
 #include "math/numeric.glsl"
-#include "material/surface.glsl"
 #include "accel/triangle.glsl"
 #include "accel/shape.glsl"
 
@@ -62,28 +61,12 @@ ShapeHit hitShapeInstance(uint index, Ray ray) {
                   s.objectFromRender * ray.direction, ray.tMin, ray.tMax);
 }
 
-// Share of light that passes a surface which may be cut away or transparent: 0 blocks, 1 is not there.
-float passedLight(uint drawId, vec2 uv0, vec2 uv1, float vertexAlpha) {
-  MaterialRecord m = materials[draws[drawId].materialId];
-  float alpha = baseAlphaAt(m, uv0, uv1, vertexAlpha);
-  bool blends = (m.flags & kMaterialAlphaBlend) != 0u;
-  float passed = 1.0 - (blends ? alpha : 1.0) * (1.0 - m.transmission);
-  return cutByMask(m, alpha) ? 1.0 : passed;
-}
-
-float passedByTriangle(PrimitiveTexels p, float b1, float b2) {
-  VertexAttributes a0 = attributes[indices[3u * p.id]];
-  VertexAttributes a1 = attributes[indices[3u * p.id + 1u]];
-  VertexAttributes a2 = attributes[indices[3u * p.id + 2u]];
-  float b0 = 1.0 - b1 - b2;
-  return passedLight(p.drawId, b0 * a0.uv0 + b1 * a1.uv0 + b2 * a2.uv0, b0 * a0.uv1 + b1 * a1.uv1 + b2 * a2.uv1,
-                     b0 * a0.color.a + b1 * a1.color.a + b2 * a2.color.a);
-}
-
-bool maskCutsTriangle(PrimitiveTexels p, float b1, float b2) {
-  bool masked = (materials[draws[p.drawId].materialId].flags & kMaterialAlphaMask) != 0u;
-  return masked && passedByTriangle(p, b1, b2) >= 1.0;
-}
+// What materials say of a surface that may be cut away or transparent; defined above this room (trace/passed_light.glsl).
+// Share of light that passes: 0 blocks, 1 is not there.
+float passedByTriangle(uint triangle, uint drawId, float b1, float b2);
+float passedByShape(uint drawId, vec2 uv);
+bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2);
+bool isOneSided(uint drawId);
 
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
 bool isCloser(float t, uint id, float bestT, uint bestId) { return t < bestT || (t == bestT && id < bestId); }
@@ -107,7 +90,7 @@ void considerPrimitive(uint slot, Ray ray, RayShear shear, bool cutBackFaces, in
     bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
     bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
     if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) {
-      bool masked = CL_HAS(alphaMask) && (p.flags & kPrimitiveMayPass) != 0u && maskCutsTriangle(p, h.b1, h.b2);
+      bool masked = CL_HAS(alphaMask) && (p.flags & kPrimitiveMayPass) != 0u && maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
       if (!masked) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
     }
   }
@@ -118,9 +101,7 @@ void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
     float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
     ShapeHit s = hitShapeInstance(i, Ray(ray.origin, ray.direction, ray.tMin, tMax));
     uint id = kPrimitiveIsShape | i;
-    MaterialRecord m = materials[draws[shapes[i].drawId].materialId];
-    bool oneSided = (m.flags & kMaterialDoubleSided) == 0u && frame.twoSided == 0u;
-    bool cut = cutBackFaces && oneSided && dot(s.n, shapes[i].objectFromRender * ray.direction) > 0.0;
+    bool cut = cutBackFaces && isOneSided(shapes[i].drawId) && dot(s.n, shapes[i].objectFromRender * ray.direction) > 0.0;
     if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
   }
 }
@@ -193,12 +174,12 @@ float passedByPrimitive(uint slot, Ray ray, RayShear shear) {
   bool mayPass = (p.flags & kPrimitiveMayPass) != 0u;
   if (CL_HAS(shapes) && (p.id & kPrimitiveIsShape) != 0u) {
     ShapeHit s = hitShapeInstance(p.id & ~kPrimitiveIsShape, ray);
-    float passed = mayPass ? passedLight(p.drawId, s.uv, s.uv, 1.0) : 0.0;
+    float passed = mayPass ? passedByShape(p.drawId, s.uv) : 0.0;
     return s.hit ? passed : 1.0;
   }
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, ray.tMax);
   float passed = 0.0;
-  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && mayPass && h.hit) passed = passedByTriangle(p, h.b1, h.b2);
+  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && mayPass && h.hit) passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
   return h.hit ? passed : 1.0;
 }
 
@@ -209,7 +190,7 @@ float lightPassed(Ray ray) {
   if (CL_HAS(shapes)) {
     for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
       ShapeHit s = hitShapeInstance(i, ray);
-      if (s.hit) passed *= passedLight(shapes[i].drawId, s.uv, s.uv, 1.0);
+      if (s.hit) passed *= passedByShape(shapes[i].drawId, s.uv);
     }
   }
   RayShear shear = shearOf(ray.direction);

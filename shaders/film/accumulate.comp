@@ -1,7 +1,7 @@
 #version 460
 // Adds one sample of every pixel to the film, compensated, and counts what is not finite.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
+#include "shared/entry.glsl"
 #include "shared/structs.h"
 #include "shared/bindings.h"
 

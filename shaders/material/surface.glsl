@@ -18,6 +18,7 @@ struct SurfaceInput {
   vec4 color;
   uint materialId;
   bool frontFacing;
+  bool colored;    // `color` counts
   bool bothSides;  // lit on the side that is seen whatever the material says: secondary rays
 };
 
@@ -73,7 +74,7 @@ void setMetallicRoughness(MaterialRecord m, vec3 base, vec2 uv0, vec2 uv1, inout
   s.albedo = base;
   s.ambientColor = base * (1.0 - m.transmission * (1.0 - metallic));
   s.diffuseColor = base * (1.0 - metallic) * (1.0 - m.transmission);
-  s.specularColor = mix(vec3(s.dielectricF0), base, metallic);
+  s.specularColor = interpolate(vec3(s.dielectricF0), base, metallic);
   s.transmissionColor = base * m.transmission * (1.0 - metallic);
 }
 
@@ -98,7 +99,7 @@ SurfacePoint surfaceAt(SurfaceInput at) {
   s.n = flip ? -n : n;
 
   vec4 base = m.baseColor;
-  if (CL_HAS(vertexColors)) base *= at.color;
+  if (CL_HAS(vertexColors) && at.colored) base *= at.color;
   s.emission = m.emission;
 #ifndef CL_UNTEXTURED
   if (CL_HAS(baseColorTexture) && hasTexture(m.baseColorTexture)) base *= sampleTexture(m.baseColorTexture, at.uv0, at.uv1);
@@ -128,6 +129,7 @@ SurfacePoint surfaceAt(SurfaceInput at) {
 }
 
 // Share of light that an occlusion test lets pass, and whether the surface is there at all (alpha mask).
+// `vertexAlpha` is 1 where the mesh has no colors.
 float baseAlphaAt(MaterialRecord m, vec2 uv0, vec2 uv1, float vertexAlpha) {
   float alpha = m.baseColor.a;
   if (CL_HAS(vertexColors)) alpha *= vertexAlpha;

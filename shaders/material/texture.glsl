@@ -2,6 +2,7 @@
 // device's sampler, so that raster and rays read the same bits on every device (a sampler weighs with 8 bits).
 #ifndef CROSSLIGHT_TEXTURE_GLSL
 #define CROSSLIGHT_TEXTURE_GLSL
+#include "math/numeric.glsl"
 
 int wrapTexel(int i, int size, uint mode) {
   int repeated = i - size * int(floor(float(i) / float(size)));
@@ -29,9 +30,9 @@ vec4 sampleTexture(TextureSlot slot, vec2 uv0, vec2 uv1) {
   vec2 base = floor(at);
   vec2 f = nearest ? vec2(0.0) : at - base;
   ivec2 i = ivec2(base);
-  vec4 top = mix(texelAt(slot, i), texelAt(slot, i + ivec2(1, 0)), f.x);
-  vec4 bottom = mix(texelAt(slot, i + ivec2(0, 1)), texelAt(slot, i + ivec2(1, 1)), f.x);
-  return mix(top, bottom, f.y);
+  vec4 top = interpolate(texelAt(slot, i), texelAt(slot, i + ivec2(1, 0)), f.x);
+  vec4 bottom = interpolate(texelAt(slot, i + ivec2(0, 1)), texelAt(slot, i + ivec2(1, 1)), f.x);
+  return interpolate(top, bottom, f.y);
 }
 
 bool hasTexture(TextureSlot slot) { return slot.firstTexel != kNoTexture; }

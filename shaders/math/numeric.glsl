@@ -9,6 +9,10 @@ const float kLargest = 3.0e38;
 // Higham 2002, "Accuracy and Stability of Numerical Algorithms", Lemma 3.1: n roundings accumulate to at most gamma_n.
 float gammaBound(float n) { return n * kUnitRoundoff / (1.0 - n * kUnitRoundoff); }
 
+// a at 0, b at 1. mix() may be computed in either of two ways, chosen by what stands around it; this may not.
+vec3 interpolate(vec3 a, vec3 b, float t) { return a + (b - a) * t; }
+vec4 interpolate(vec4 a, vec4 b, float t) { return a + (b - a) * t; }
+
 float maxComponent(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 // Unit vector of any finite, nonzero v; `fallback` for zero, infinite or NaN. Scaled first, so that squares neither

@@ -28,6 +28,7 @@ SurfaceInput surfaceInput() {
   at.color = vertexColor;
   at.materialId = draws[drawId].materialId;
   at.frontFacing = gl_FrontFacing;
+  at.colored = (draws[drawId].flags & kDrawHasColors) != 0u;
   at.bothSides = false;
 #if defined(CL_AOV) || defined(CL_CENTROID)
   TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
@@ -82,7 +83,7 @@ void main() {
   SurfaceInput at = surfaceInput();
   if (CL_HAS(alphaMask)) {
     MaterialRecord m = materials[at.materialId];
-    if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.color.a))) discard;
+    if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.colored ? at.color.a : 1.0))) discard;
   }
   SurfacePoint s = surfaceAt(at);
   ShadedParts parts = compose(s, lighting(s), frame.ambient);

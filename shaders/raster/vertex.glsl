@@ -21,7 +21,8 @@ float lightVisibility(uint lightIndex) { return 1.0; }
 #ifdef CL_SUMS_MODE
 LightSums lightVertex(bool frontFacing) {
   SurfaceInput at = SurfaceInput(inPosition, inNormal, safeNormalize(inNormal, vec3(0.0, 0.0, 1.0)), inTangent, inUv0,
-                                 inUv1, inColor, draws[gl_InstanceIndex].materialId, frontFacing, false);
+                                 inUv1, inColor, draws[gl_InstanceIndex].materialId, frontFacing,
+                                 (draws[gl_InstanceIndex].flags & kDrawHasColors) != 0u, false);
   SurfacePoint s = surfaceAt(at);
   return illuminate(s, viewDirection(inPosition), 0u, frame.lightCount);
 }

@@ -1,7 +1,7 @@
 // The GLSL side of bindings.h: declarations only. An entry point includes this once.
 #ifndef CROSSLIGHT_SCENE_BINDINGS_GLSL
 #define CROSSLIGHT_SCENE_BINDINGS_GLSL
-#extension GL_EXT_scalar_block_layout : require
+#include "entry.glsl"
 #include "structs.h"
 #include "lists.h"
 #include "bindings.h"

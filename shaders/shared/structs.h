@@ -29,6 +29,7 @@ struct DrawRecord {
 CL_SIZE(DrawRecord, 24)
 CL_CONST uint kDrawFlipsWinding = 1u;  // the node's transform mirrors: front faces are clockwise
 CL_CONST uint kDrawHasTangents = 2u;
+CL_CONST uint kDrawHasColors = 4u;    // else the color is 1 exactly, which interpolation need not give back
 
 CL_CONST uint kNoTexture = 0xffffffffu;
 

@@ -2,7 +2,7 @@
 // of rays that leave the surface.
 #ifndef CROSSLIGHT_HIT_SURFACE_GLSL
 #define CROSSLIGHT_HIT_SURFACE_GLSL
-#include "accel/bvh.glsl"
+#include "trace/passed_light.glsl"
 #include "shade/triangle.glsl"
 
 struct HitSurface {
@@ -29,6 +29,7 @@ HitSurface triangleSurface(HitRecord hit) {
   s.at.uv0 = b.x * a0.uv0 + b.y * a1.uv0 + b.z * a2.uv0;
   s.at.uv1 = b.x * a0.uv1 + b.y * a1.uv1 + b.z * a2.uv1;
   s.at.color = b.x * a0.color + b.y * a1.color + b.z * a2.color;
+  s.at.colored = (draw.flags & kDrawHasColors) != 0u;
   s.at.materialId = draw.materialId;
   s.drawId = p.drawId;
   s.primitiveId = draw.primitiveBase + p.id - draw.firstTriangle;
@@ -53,6 +54,7 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
   s.at.uv0 = found.uv;
   s.at.uv1 = found.uv;
   s.at.color = vec4(1.0);
+  s.at.colored = false;
   s.at.materialId = draw.materialId;
   s.drawId = shape.drawId;
   s.primitiveId = 0u;

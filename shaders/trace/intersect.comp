@@ -3,9 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "accel/bvh.glsl"
+#include "trace/passed_light.glsl"
 
 layout(local_size_x = 64) in;
+
+float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
 void main() {
   if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
