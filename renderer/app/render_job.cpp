@@ -178,8 +178,9 @@ RenderResult render(gpu::Device& device, const Scene& scene, const RenderSetting
   lap("bvh");
   report.counters["triangles"] = flat.triangleCount();
   report.counters["shapes"] = flat.shapes.size();
-  report.counters["bvhNodes"] = bvh.bvh.stats.nodeCount;
-  report.counters["bvhBytes"] = bvh.bvh.stats.sizeBytes;
+  report.counters["bvhNodes"] = bvh.nodes.size();
+  report.counters["bvhBytes"] =
+      bvh.nodes.size() * sizeof(shared::BvhNode) + bvh.primitives.size() * sizeof(shared::BvhPrimitive);
 
   GpuScene gpuScene(device, scene, settings, std::move(flat), traced ? &bvh : nullptr);
   Film film(device, {settings.width, settings.height,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -81,14 +82,21 @@ class Whitted final : public Technique {
 
  private:
   void makePipelines() {
-    const auto pipeline = [&](const char* name) {
-      return gpu::ComputePipeline(device_, layout_, gpu::embeddedShader(name), constantsOf(plan_));
+    // Each in a thread of its own: a driver takes 100 ms and more for the larger ones.
+    const auto start = [&](const char* name) {
+      return std::async(std::launch::async, [this, name] {
+        return gpu::ComputePipeline(device_, layout_, gpu::embeddedShader(name), constantsOf(plan_));
+      });
     };
-    generate_ = pipeline("generate.comp");
-    intersect_ = pipeline("intersect.comp");
-    if (plan_.has(Effect::shadows)) shadow_ = pipeline("shadow.comp");
-    shade_ = pipeline("shade.comp");
-    gather_ = pipeline("gather.comp");
+    auto intersect = start("intersect.comp");
+    auto shade = start("shade.comp");
+    auto generate = start("generate.comp");
+    auto gather = start("gather.comp");
+    if (plan_.has(Effect::shadows)) shadow_ = start("shadow.comp").get();
+    generate_ = generate.get();
+    intersect_ = intersect.get();
+    shade_ = shade.get();
+    gather_ = gather.get();
   }
 
   bool branches() const {

@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "effects/material_traits.h"
 #include "scene/shape_mesh.h"
@@ -157,6 +158,7 @@ class Flattener {
     flat_.draws.push_back({flat_.triangleCount(), 0u, static_cast<std::uint32_t>(shape.material), shape.instanceId, 0u,
                            place.mirrors ? shared::kDrawFlipsWinding : 0u});
     if (!bounded) {
+      CL_CHECK(shape.kind == ShapeKind::plane);  // what shaders/accel/bvh.glsl relies on
       ++flat_.unboundedShapeCount;
       return;
     }
@@ -203,37 +205,65 @@ FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyt
   return Flattener(scene, origin, analyticShapes).run();
 }
 
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings) {
-  const std::uint32_t triangles = flat.triangleCount();
-  std::vector<Bounds> boxes(triangles);
-  std::vector<std::uint32_t> drawOf(triangles);
-  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
-    const shared::DrawRecord& draw = flat.draws[d];
-    std::fill_n(drawOf.begin() + draw.firstTriangle, draw.triangleCount, d);
-  }
-  for (std::uint32_t i = 0; i < triangles; ++i) {
-    for (std::uint32_t k = 0; k < 3; ++k) boxes[i].add(flat.positions[flat.indices[3 * i + k]]);
-  }
-  boxes.insert(boxes.end(), flat.shapeBounds.begin(), flat.shapeBounds.end());
+namespace {
 
+// Appends a tree behind those before it; its references move along.
+void append(const Bvh& tree, FlatBvh& all) {
+  const auto firstNode = static_cast<std::uint32_t>(all.nodes.size());
+  const auto firstPrimitive = static_cast<std::uint32_t>(all.primitives.size());
+  const auto moved = [&](std::uint32_t child) {
+    if (!bvhIsLeaf(child)) return child + firstNode;
+    return bvhLeafCount(child) == 0 ? child : child + firstPrimitive;
+  };
+  for (shared::BvhNode node : tree.nodes) {
+    node.child0 = moved(node.child0);
+    node.child1 = moved(node.child1);
+    if (node.parent != shared::kNoId) node.parent += firstNode;
+    all.nodes.push_back(node);
+  }
+}
+
+std::vector<Bounds> triangleBounds(const FlatScene& flat) {
+  std::vector<Bounds> boxes(flat.triangleCount());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) boxes[i].add(flat.positions[flat.indices[3 * i + k]]);
+  }
+  return boxes;
+}
+
+std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
+  std::vector<std::uint32_t> drawOf(flat.triangleCount());
+  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
+    std::fill_n(drawOf.begin() + flat.draws[d].firstTriangle, flat.draws[d].triangleCount, d);
+  }
+  return drawOf;
+}
+
+}  // namespace
+
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings) {
   FlatBvh result;
-  result.bvh = buildBvh(boxes);
-  result.primitives.reserve(result.bvh.order.size());
-  for (const std::uint32_t item : result.bvh.order) {
+  const auto flagsOf = [&](std::uint32_t drawId) {
+    const shared::DrawRecord& draw = flat.draws[drawId];
+    return primitiveFlags(scene.materials[draw.materialId], draw.flags, settings);
+  };
+  const Bvh triangles = buildBvh(triangleBounds(flat));
+  append(triangles, result);
+  const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
+  for (const std::uint32_t t : triangles.order) {
+    const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
+    result.primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flagsOf(drawOf[t])});
+  }
+  const Bvh shapes = buildBvh(flat.shapeBounds);
+  result.shapeRoot = static_cast<std::uint32_t>(result.nodes.size());
+  append(shapes, result);
+  for (const std::uint32_t s : shapes.order) {
+    const std::uint32_t shape = flat.unboundedShapeCount + s;
+    const std::uint32_t drawId = flat.shapes[shape].drawId;
     shared::BvhPrimitive p{};
-    if (item < triangles) {
-      p.v0 = flat.positions[flat.indices[3 * item]];
-      p.v1 = flat.positions[flat.indices[3 * item + 1]];
-      p.v2 = flat.positions[flat.indices[3 * item + 2]];
-      p.id = item;
-      p.drawId = drawOf[item];
-    } else {
-      const std::uint32_t shape = flat.unboundedShapeCount + item - triangles;
-      p.id = shared::kPrimitiveIsShape | shape;
-      p.drawId = flat.shapes[shape].drawId;
-    }
-    const shared::DrawRecord& draw = flat.draws[p.drawId];
-    p.flags = primitiveFlags(scene.materials[draw.materialId], draw.flags, settings);
+    p.id = shared::kPrimitiveIsShape | shape;
+    p.drawId = drawId;
+    p.flags = flagsOf(drawId);
     result.primitives.push_back(p);
   }
   return result;

@@ -30,9 +30,11 @@ struct FlatScene {
 // 2^31 indices.
 FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes);
 
-// BVH over triangles and bounded shapes, with its primitives in leaf order as the shaders read them.
+// One tree over the triangles and one over the bounded shapes, one behind the other, with the primitives in leaf order
+// as the shaders read them.
 struct FlatBvh {
-  Bvh bvh;
+  std::vector<shared::BvhNode> nodes;  // the triangles' root is 0
+  std::uint32_t shapeRoot = 0;
   std::vector<shared::BvhPrimitive> primitives;
 };
 FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings);

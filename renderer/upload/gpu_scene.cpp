@@ -24,7 +24,8 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
   const FlatBvh none;
   const FlatBvh& tree = bvh ? *bvh : none;
-  nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.bvh.nodes, gpu::useUniformTexel);
+  shapeRoot_ = tree.shapeRoot;
+  nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
   primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
 }
 
@@ -32,6 +33,7 @@ void GpuScene::setSample(const glm::vec2& sampleOffset) {
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
   frame.shapeCount = static_cast<std::uint32_t>(flat_.shapes.size());
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
+  frame.shapeRoot = shapeRoot_;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));
 }
 

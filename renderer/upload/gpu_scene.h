@@ -31,6 +31,7 @@ class GpuScene {
   const Scene& scene_;
   const RenderSettings& settings_;
   FlatScene flat_;
+  std::uint32_t shapeRoot_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
       primitives_;
 };

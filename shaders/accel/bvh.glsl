@@ -68,6 +68,14 @@ float passedByShape(uint drawId, vec2 uv);
 bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2);
 bool isOneSided(uint drawId);
 
+// Shapes without bounds stand outside of the tree, first in the list. Planes are the only ones (the host checks), so the
+// other kinds' code is not inlined once more here.
+ShapeHit hitUnboundedShape(uint index, Ray ray) {
+  ShapeRecord s = shapes[index];
+  return hitPlane(s.params, s.objectFromRender * (ray.origin - s.renderCenter), s.objectFromRender * ray.direction,
+                  ray.tMin, ray.tMax);
+}
+
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
 bool isCloser(float t, uint id, float bestT, uint bestId) { return t < bestT || (t == bestT && id < bestId); }
 
@@ -76,30 +84,32 @@ struct Closest {
   uint id;
 };
 
-void considerPrimitive(uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
+void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
   PrimitiveTexels p = fetchPrimitive(slot);
   float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-  if (CL_HAS(shapes) && (p.id & kPrimitiveIsShape) != 0u) {
-    ShapeHit s = hitShapeInstance(p.id & ~kPrimitiveIsShape, Ray(ray.origin, ray.direction, ray.tMin, tMax));
-    bool back = dot(s.n, shapes[p.id & ~kPrimitiveIsShape].objectFromRender * ray.direction) > 0.0;
-    bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
-    if (s.hit && !cut && isCloser(s.t, p.id, tMax, best.id))
-      best = Closest(HitRecord(s.t, kHitShape | (p.id & ~kPrimitiveIsShape), 0.0, 0.0), p.id);
-  } else {
-    TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
-    bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
-    bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
-    if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) {
-      bool masked = CL_HAS(alphaMask) && (p.flags & kPrimitiveMayPass) != 0u && maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
-      if (!masked) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
-    }
-  }
+  TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
+  bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
+  bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
+  bool closer = h.hit && !cut && isCloser(h.t, p.id, tMax, best.id);
+  if (CL_HAS(alphaMask) && closer && (p.flags & kPrimitiveMayPass) != 0u)
+    closer = !maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
+  if (closer) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
+}
+
+void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
+  PrimitiveTexels p = fetchPrimitive(slot);
+  uint shape = p.id & ~kPrimitiveIsShape;
+  float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
+  ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax));
+  bool back = dot(h.n, shapes[shape].objectFromRender * ray.direction) > 0.0;
+  bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
+  if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), p.id);
 }
 
 void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
   for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
     float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-    ShapeHit s = hitShapeInstance(i, Ray(ray.origin, ray.direction, ray.tMin, tMax));
+    ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax));
     uint id = kPrimitiveIsShape | i;
     bool cut = cutBackFaces && isOneSided(shapes[i].drawId) && dot(s.n, shapes[i].objectFromRender * ray.direction) > 0.0;
     if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
@@ -143,73 +153,131 @@ void descend(Ray ray, vec3 inverse, bvec3 negative, inout Walk walk) {
   else popNext(walk);
 }
 
+// A ray with what every box test needs of it.
+struct WalkRay {
+  Ray ray;
+  vec3 inverse;
+  bvec3 negative;
+};
+
+WalkRay walkRayOf(Ray ray) {
+  vec3 inverse = 1.0 / ray.direction;
+  return WalkRay(ray, inverse, lessThan(inverse, vec3(0.0)));
+}
+
+// Goes down from walk.next until a leaf, or the walk's end, is next.
+void walkToLeaf(WalkRay w, float tMax, inout Walk walk) {
+  w.ray.tMax = tMax;
+  while ((walk.next & kBvhLeaf) == 0u && walk.steps < kLargestWalk) {
+    descend(w.ray, w.inverse, w.negative, walk);
+    ++walk.steps;
+  }
+}
+
+uint leafCount(Walk walk) { return walk.next == kWalkDone ? 0u : (walk.next >> kBvhCountShift) & 15u; }
+
+void leaveLeaf(uint count, inout Walk walk) {
+  walk.steps += count;
+  if (walk.next != kWalkDone) popNext(walk);
+}
+
+bool goesOn(Walk walk) { return walk.next != kWalkDone && walk.steps < kLargestWalk; }
+
+void countCapped(Walk walk) {
+  if (walk.steps >= kLargestWalk) atomicAdd(counters[kCounterCapped], 1u);
+}
+
+float boundOf(Closest best, Ray ray) { return best.hit.primitive == kNoHit ? ray.tMax : best.hit.t; }
+
+bool isValid(Ray ray) {
+  return isFinite3(ray.origin) && isFinite3(ray.direction) && dot(abs(ray.direction), vec3(1.0)) > 0.0;
+}
+
+// Triangles and shapes have a tree each: devices that run both sides of every branch would else pay for all shapes'
+// equations at every triangle.
 HitRecord closestHit(Ray ray, bool cutBackFaces) {
   Closest best = Closest(kMiss, kNoId);
-  bool valid = isFinite3(ray.origin) && isFinite3(ray.direction) && dot(abs(ray.direction), vec3(1.0)) > 0.0;
-  if (!valid) return kMiss;
-  if (CL_HAS(shapes)) considerUnboundedShapes(ray, cutBackFaces, best);
+  if (!isValid(ray)) return kMiss;
+  WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
-  vec3 inverse = 1.0 / ray.direction;
-  bvec3 negative = lessThan(inverse, vec3(0.0));
   Walk walk = Walk(0u, 0, 0u);
-  Ray clipped = ray;
-  while (walk.next != kWalkDone && walk.steps < kLargestWalk) {
-    while ((walk.next & kBvhLeaf) == 0u && walk.steps < kLargestWalk) {
-      clipped.tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-      descend(clipped, inverse, negative, walk);
-      ++walk.steps;
-    }
-    uint count = walk.next == kWalkDone ? 0u : (walk.next >> kBvhCountShift) & 15u;
+  while (goesOn(walk)) {
+    walkToLeaf(w, boundOf(best, ray), walk);
+    uint count = leafCount(walk);
     uint firstSlot = walk.next & kBvhFirstMask;
-    for (uint i = 0u; i < count; ++i) considerPrimitive(firstSlot + i, ray, shear, cutBackFaces, best);
-    walk.steps += count;
-    if (walk.next != kWalkDone) popNext(walk);
+    for (uint i = 0u; i < count; ++i) considerTriangle(firstSlot + i, ray, shear, cutBackFaces, best);
+    leaveLeaf(count, walk);
   }
-  if (walk.steps >= kLargestWalk) atomicAdd(counters[kCounterCapped], 1u);
+  countCapped(walk);
+  if (CL_HAS(shapes)) {
+    considerUnboundedShapes(ray, cutBackFaces, best);
+    walk = Walk(frame.shapeRoot, 0, 0u);
+    while (goesOn(walk)) {
+      walkToLeaf(w, boundOf(best, ray), walk);
+      uint count = leafCount(walk);
+      uint firstSlot = walk.next & kBvhFirstMask;
+      for (uint i = 0u; i < count; ++i) considerShape(firstSlot + i, ray, cutBackFaces, best);
+      leaveLeaf(count, walk);
+    }
+    countCapped(walk);
+  }
   return best.hit;
 }
 
-float passedByPrimitive(uint slot, Ray ray, RayShear shear) {
+float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
   PrimitiveTexels p = fetchPrimitive(slot);
-  bool mayPass = (p.flags & kPrimitiveMayPass) != 0u;
-  if (CL_HAS(shapes) && (p.id & kPrimitiveIsShape) != 0u) {
-    ShapeHit s = hitShapeInstance(p.id & ~kPrimitiveIsShape, ray);
-    float passed = mayPass ? passedByShape(p.drawId, s.uv) : 0.0;
-    return s.hit ? passed : 1.0;
-  }
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, ray.tMax);
   float passed = 0.0;
-  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && mayPass && h.hit) passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
+  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
+    passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
   return h.hit ? passed : 1.0;
+}
+
+float lightPassedShape(uint slot, Ray ray) {
+  PrimitiveTexels p = fetchPrimitive(slot);
+  ShapeHit h = hitShapeInstance(p.id & ~kPrimitiveIsShape, ray);
+  float passed = (p.flags & kPrimitiveMayPass) != 0u ? passedByShape(p.drawId, h.uv) : 0.0;
+  return h.hit ? passed : 1.0;
+}
+
+float lightPassedUnbounded(Ray ray) {
+  float passed = 1.0;
+  for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
+    ShapeHit s = hitUnboundedShape(i, ray);
+    if (s.hit) passed *= passedByShape(shapes[i].drawId, s.uv);
+  }
+  return passed;
 }
 
 // Share of light that travels the whole ray: the product over all surfaces in between. Transparent shadows have no
 // color and no refraction: what passes goes straight on.
 float lightPassed(Ray ray) {
   float passed = 1.0;
-  if (CL_HAS(shapes)) {
-    for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
-      ShapeHit s = hitShapeInstance(i, ray);
-      if (s.hit) passed *= passedByShape(shapes[i].drawId, s.uv);
-    }
-  }
+  WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
-  vec3 inverse = 1.0 / ray.direction;
-  bvec3 negative = lessThan(inverse, vec3(0.0));
   Walk walk = Walk(0u, 0, 0u);
-  while (walk.next != kWalkDone && walk.steps < kLargestWalk) {
-    while ((walk.next & kBvhLeaf) == 0u && walk.steps < kLargestWalk) {
-      descend(ray, inverse, negative, walk);
-      ++walk.steps;
-    }
-    uint count = walk.next == kWalkDone ? 0u : (walk.next >> kBvhCountShift) & 15u;
+  while (goesOn(walk)) {
+    walkToLeaf(w, ray.tMax, walk);
+    uint count = leafCount(walk);
     uint firstSlot = walk.next & kBvhFirstMask;
-    for (uint i = 0u; i < count; ++i) passed *= passedByPrimitive(firstSlot + i, ray, shear);
-    walk.steps += count;
-    if (walk.next != kWalkDone) popNext(walk);
+    for (uint i = 0u; i < count; ++i) passed *= lightPassedTriangle(firstSlot + i, ray, shear);
+    leaveLeaf(count, walk);
     if (passed == 0.0) walk.next = kWalkDone;
   }
-  if (walk.steps >= kLargestWalk) atomicAdd(counters[kCounterCapped], 1u);
+  countCapped(walk);
+  if (CL_HAS(shapes)) {
+    passed *= lightPassedUnbounded(ray);
+    walk = Walk(passed == 0.0 ? kWalkDone : frame.shapeRoot, 0, 0u);
+    while (goesOn(walk)) {
+      walkToLeaf(w, ray.tMax, walk);
+      uint count = leafCount(walk);
+      uint firstSlot = walk.next & kBvhFirstMask;
+      for (uint i = 0u; i < count; ++i) passed *= lightPassedShape(firstSlot + i, ray);
+      leaveLeaf(count, walk);
+      if (passed == 0.0) walk.next = kWalkDone;
+    }
+    countCapped(walk);
+  }
   return passed;
 }
 #endif

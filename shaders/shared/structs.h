@@ -129,11 +129,12 @@ struct FrameRecord {
   uint lightCount;
   uint shapeCount;
   uint unboundedShapeCount;  // planes: the first ones in the shape list, outside the BVH
+  uint shapeRoot;         // node at which the shapes' tree begins; the triangles' begins at 0
   uint twoSided;          // 1: light and show both sides of every surface
   vec3 ambient;           // Ia
   vec3 background;
 };
-CL_SIZE(FrameRecord, 180)
+CL_SIZE(FrameRecord, 184)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {
