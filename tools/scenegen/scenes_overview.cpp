@@ -61,7 +61,7 @@ void overview(GltfBuilder& gltf) {
   addPointLight(gltf, "key", {-4.5, 8.0, 6.0}, {.color = {1.10, 1.02, 0.88}});
   addPointLight(gltf, "sky", {6.5, 6.0, 4.5}, {.color = {0.34, 0.34, 0.36}});
   addPointLight(gltf, "rim", {2.0, 5.0, -7.0}, {.color = {0.32, 0.19, 0.12}});
-  addCamera(gltf, {.eye = {0.7, 4.6, 9.2}, .target = {-0.15, 0.7, -0.1}, .yFovDegrees = 42.0, .zNear = 0.5});
+  addCamera(gltf, {.eye = {0.7, 4.4, 9.2}, .target = {-0.2, 0.8, 0.0}, .yFovDegrees = 40.0, .zNear = 0.5});
   setAtmosphere(gltf, 0.3, {0.055, 0.085, 0.15});
 }
 

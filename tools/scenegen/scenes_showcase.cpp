@@ -50,7 +50,7 @@ void teapots(GltfBuilder& gltf) {
   addFloor(gltf, dvec3(0.0), 34.0, 34.0, gltf.addMaterial(matte("floor", {0.30, 0.30, 0.31})));
   addPointLight(gltf, "key", {-12.0, 20.0, 22.0}, {.color = dvec3(1.25, 1.2, 1.1)});
   addPointLight(gltf, "fill", {18.0, 10.0, 16.0}, {.color = dvec3(0.45)});
-  addCamera(gltf, {.eye = {0.0, 27.0, 29.0}, .target = {0.0, 0.8, -0.4}, .yFovDegrees = 38.0, .zNear = 1.0});
+  addCamera(gltf, {.eye = {0.0, 27.0, 29.0}, .target = {0.0, 0.8, -0.1}, .yFovDegrees = 38.0, .zNear = 1.0});
   setAtmosphere(gltf, 0.35, {0.08, 0.09, 0.11});
 }
 
