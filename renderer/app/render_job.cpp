@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/time.h"
 #include "effects/effects.h"
+#include "effects/material_traits.h"
 #include "film/film.h"
 #include "raster/raster.h"
 #include "trace/whitted.h"
@@ -147,6 +148,19 @@ std::vector<EffectRecord> recordsOf(const Plan& plan) {
   return records;
 }
 
+// What a raster method cannot show of this scene, said once per material.
+void warnOfApproximations(const Scene& scene, const Plan& plan, const RenderSettings& s) {
+  if (isTraced(s.method) || !plan.has(Effect::transparency)) return;
+  for (const Material& m : scene.materials) {
+    if (refracts(m)) {
+      logWarning(
+          fmt::format("material '{}' refracts: {} shows what is behind it unbent and without reflections; "
+                      "whitted traces both",
+                      m.name, nameOf(s.method)));
+    }
+  }
+}
+
 void checkSettings(const Scene& scene, const RenderSettings& s) {
   CL_CHECK_LT(static_cast<std::size_t>(s.camera), scene.cameras.size());
   CL_CHECK(s.width > 0 && s.height > 0 && s.spp > 0);
@@ -169,6 +183,7 @@ RenderResult render(gpu::Device& device, const Scene& scene, const RenderSetting
   const auto lap = [&](const char* phase) { report.timesMs.emplace_back(phase, watch.lapMs()); };
 
   const Plan plan = makePlan(scene, settings);
+  warnOfApproximations(scene, plan, settings);
   const bool traced = isTraced(settings.method);
   const glm::dvec3 origin = renderOrigin(scene.cameras[static_cast<std::size_t>(settings.camera)]);
   FlatScene flat = flattenScene(scene, origin, traced);
