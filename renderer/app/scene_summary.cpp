@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <numbers>
 
 #include "app/suggest.h"
@@ -23,7 +25,13 @@ Json vectorJson(const V& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-std::string named(const std::string& name) { return name.empty() ? "(no name)" : name; }
+// Names come from files: what would steer the terminal is shown as '?'.
+std::string named(const std::string& name) {
+  std::string shown = name.empty() ? "(no name)" : name;
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return shown;
+}
 
 const char* nameOf(AlphaMode mode) {
   switch (mode) {
@@ -139,7 +147,7 @@ std::string sceneTable(const Scene& scene) {
   text += row("images", fmt::format("{}", scene.images.size()));
   text += row("animations", fmt::format("{}", stats.animations));
   text += row("memory", fmt::format("{:.1f} MiB on the host", static_cast<double>(hostBytesOf(scene)) / (1 << 20)));
-  text += row("extensions", stats.extensionsUsed.empty() ? "none" : joined(stats.extensionsUsed, ", "));
+  text += row("extensions", stats.extensionsUsed.empty() ? "none" : named(joined(stats.extensionsUsed, ", ")));
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const std::string origin = scene.defaultCamera ? " (made to frame the bounds: the file has none)" : "";
     text +=

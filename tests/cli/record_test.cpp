@@ -106,6 +106,17 @@ TEST_F(Records, devicesSayUsableOrWhyNot) {
   }
 }
 
+TEST_F(Records, namesFromAFileDoNotSteerTheTerminal) {
+  write("names.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"name": "a\u001b[2Jb", "nodes": [0]}],
+    "nodes": [{"camera": 0}],
+    "cameras": [{"type": "perspective", "name": "c\u0007d", "perspective": {"yfov": 1, "znear": 0.1}}]})");
+  const Outcome outcome = run({"info", "names.gltf"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("a?[2Jb"));
+  EXPECT_THAT(outcome.out, testing::HasSubstr("c?d"));
+  EXPECT_EQ(outcome.out.find_first_of("\x1b\x07"), std::string::npos);
+}
+
 TEST_F(Records, ofATableForPeopleHaveTheSameFacts) {
   const std::string table = run({"info", scene()}).out;
   const json s = onStdout({"info", scene(), "--json", "-"})["scene"];
