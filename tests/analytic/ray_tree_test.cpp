@@ -1,0 +1,194 @@
+// The ray tree against closed forms: mirrors that face each other, a glass slab, absorption, transparency, shadows.
+// Every surface that is looked at emits, and no light shines unless a test says so: values are sums of few products.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "support/render_fixture.h"
+
+namespace crosslight::testing {
+namespace {
+
+constexpr double kRounding = 1e-6;  // a few products of numbers near 1 in fp32: some 10 u, u = 6e-8
+
+// A scene that the camera at the origin sees along -Z.
+struct Stage {
+  Scene scene;
+
+  Stage() {
+    scene.source = "made in a test";
+    Camera camera;
+    camera.zNear = 0.01;
+    scene.cameras.push_back(camera);
+  }
+
+  int add(const Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+  }
+
+  // Square of side 8 in the plane z, facing the camera, or away from it.
+  void addWall(double z, int material, bool facesCamera = true) {
+    Primitive p;
+    p.positions = {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}};
+    p.normals.assign(4, {0, 0, facesCamera ? 1 : -1});
+    p.indices =
+        facesCamera ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
+    p.material = material;
+    scene.meshes.push_back({"wall", {p}});
+    MeshInstance instance;
+    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+    instance.worldFromObject[3] = {0, 0, z, 1};
+    instance.instanceId = scene.instanceCount++;
+    scene.instances.push_back(instance);
+  }
+
+  void addShape(ShapeKind kind, const glm::vec4& params, const glm::dvec3& at, int material) {
+    ShapeInstance shape;
+    shape.kind = kind;
+    shape.params = params;
+    shape.material = material;
+    shape.worldFromObject[3] = glm::dvec4(at, 1.0);
+    shape.instanceId = scene.instanceCount++;
+    scene.shapes.push_back(shape);
+  }
+
+  std::array<float, 4> center(Method method, std::uint32_t maxDepth) const {
+    RenderSettings s = settingsFor(method, 9, 9);
+    s.maxDepth = maxDepth;
+    return pixelAt(render(device(), scene, s).image, 4, 4);
+  }
+};
+
+Material emitter(float radiance) {
+  Material m;
+  m.model = IlluminationModel::lambert;
+  m.classic.ambientFactor = m.classic.diffuseFactor = glm::vec3(0.0f);
+  m.emissiveFactor = glm::vec3(radiance);
+  return m;
+}
+
+Material glass(float ior) {
+  Material m;
+  m.metallicFactor = 0.0f;
+  m.perceptualRoughnessFactor = 0.0f;
+  m.transmissionFactor = 1.0f;
+  m.indexOfRefraction = ior;
+  m.hasIor = m.hasVolume = true;
+  return m;
+}
+
+// Two mirrors of reflectance 0.9 that emit 1: each segment adds the next power, cut at the depth limit.
+TEST(RayTree, mirrorHallGivesThePartialGeometricSeries) {
+  Stage stage;
+  Material mirror = emitter(1.0f);
+  mirror.classic.reflectionFactor = glm::vec3(0.9f);
+  const int id = stage.add(mirror);
+  stage.addWall(-2.0, id);
+  stage.addWall(1.0, id, false);
+  for (const std::uint32_t depth : {0u, 1u, 5u, 10u}) {
+    const double expected = (1.0 - std::pow(static_cast<double>(0.9f), depth + 1)) / (1.0 - static_cast<double>(0.9f));
+    EXPECT_NEAR(stage.center(Method::whitted, depth)[0], expected, 10 * kRounding) << "depth " << depth;
+  }
+}
+
+// Light through a slab at normal incidence, F = 0.04: (1 - F)^2 times 1 + F^2 + F^4 ...; each term needs two segments.
+TEST(RayTree, glassSlabTransmitsTheSeriesOfItsInternalReflections) {
+  Stage stage;
+  stage.addShape(ShapeKind::box, {6, 6, 1, 0}, {0, 0, -3}, stage.add(glass(1.5f)));
+  stage.addWall(-6.0, stage.add(emitter(1.0f)));
+  const double F = 0.04;
+  EXPECT_NEAR(stage.center(Method::whitted, 1)[0], 0.0, kRounding) << "the ray ends inside";
+  EXPECT_NEAR(stage.center(Method::whitted, 2)[0], (1 - F) * (1 - F), kRounding);
+  EXPECT_NEAR(stage.center(Method::whitted, 4)[0], (1 - F) * (1 - F) * (1 + F * F), kRounding);
+  EXPECT_NEAR(stage.center(Method::whitted, 12)[0], (1 - F) / (1 + F), kRounding) << "the whole series";
+}
+
+TEST(RayTree, slabAbsorbsByBeersLaw) {
+  Stage stage;
+  Material tinted = glass(1.5f);
+  tinted.attenuationColor = {0.5f, 0.25f, 1.0f};
+  tinted.attenuationDistance = 1.0f;
+  stage.addShape(ShapeKind::box, {6, 6, 2, 0}, {0, 0, -3}, stage.add(tinted));
+  stage.addWall(-6.0, stage.add(emitter(1.0f)));
+  const auto pixel = stage.center(Method::whitted, 2);
+  const double surfaces = 0.96 * 0.96;
+  EXPECT_NEAR(pixel[0], surfaces * 0.25, kRounding);
+  EXPECT_NEAR(pixel[1], surfaces * 0.0625, kRounding);
+  EXPECT_NEAR(pixel[2], surfaces, kRounding);
+}
+
+// I = (1 - kt) Irefl + kt Itrans, in raster and by rays.
+TEST(RayTree, transparencyMixesByKtInRasterAndRays) {
+  Stage stage;
+  Material pane = emitter(0.5f);
+  pane.classic.transparency = 0.3f;
+  stage.addWall(-2.0, stage.add(pane));
+  stage.addWall(-5.0, stage.add(emitter(1.0f)));
+  for (const Method method : {Method::flat, Method::gouraud, Method::phong, Method::whitted}) {
+    const auto pixel = stage.center(method, 5);
+    EXPECT_NEAR(pixel[0], 0.7 * 0.5 + 0.3 * 1.0, kRounding) << nameOf(method);
+    EXPECT_NEAR(pixel[3], 1.0, kRounding) << nameOf(method);
+  }
+}
+
+// A directional light along the view: lit kd, or nothing behind a blocker; half of it behind a half-transparent one.
+TEST(RayTree, shadowsAreHardAndPalerBehindTransparentThings) {
+  const auto wallBehind = [](float transparency, bool shadows) {
+    Stage stage;
+    Material white = emitter(0.0f);
+    white.classic.diffuseFactor = glm::vec3(0.8f);
+    stage.addWall(-5.0, stage.add(white));
+    Material blocker = emitter(0.0f);
+    blocker.classic.transparency = transparency;
+    stage.addShape(ShapeKind::disk, {1, 0, 0, 0}, {0, 3, -4}, stage.add(blocker));
+    Light sun;
+    sun.type = LightType::directional;
+    sun.classic = ClassicLight{};
+    sun.worldDirection = glm::normalize(glm::dvec3(0, -4, -1));  // from above through the disk to the wall's middle
+    stage.scene.lights.push_back(sun);
+    RenderSettings s = settingsFor(Method::whitted, 9, 9);
+    s.shadows = shadows;
+    return pixelAt(render(device(), stage.scene, s).image, 4, 4)[0];
+  };
+  const double lit = 0.8 / std::sqrt(17.0);
+  EXPECT_NEAR(wallBehind(0.0f, false), lit, kRounding);
+  EXPECT_NEAR(wallBehind(0.0f, true), 0.0, 0.0);
+  EXPECT_NEAR(wallBehind(0.5f, true), 0.5 * lit, kRounding);
+}
+
+// Outside of a scene scaled by any unit the picture is the same (NUMERICS M4): no absolute epsilon anywhere.
+TEST(RayTree, sceneInAnyUnitLooksTheSame) {
+  const auto draw = [](double unit) {
+    Stage stage;
+    Material white = emitter(0.0f);
+    white.model = IlluminationModel::phong;
+    white.classic.ambientFactor = white.classic.diffuseFactor = glm::vec3(0.6f);
+    white.classic.specularFactor = glm::vec3(0.4f);
+    white.classic.shininess = 20.0f;
+    white.classic.reflectionFactor = glm::vec3(0.3f);
+    const int id = stage.add(white);
+    stage.addShape(ShapeKind::sphere, {0.7, 0, 0, 0}, {-0.6, 0, -4}, id);
+    stage.addShape(ShapeKind::torus, {0.5, 0.2, 0, 0}, {0.9, 0, -4}, id);
+    stage.addWall(-6.0, id);
+    Light lamp;
+    lamp.classic = ClassicLight{};
+    lamp.worldPosition = glm::dvec3(2, 3, 0);
+    stage.scene.lights.push_back(lamp);
+    stage.scene.atmosphere.ambient = glm::vec3(0.2f);
+    const glm::dmat4 scale(glm::dvec4(unit, 0, 0, 0), glm::dvec4(0, unit, 0, 0), glm::dvec4(0, 0, unit, 0),
+                           glm::dvec4(0, 0, 0, 1));
+    for (MeshInstance& m : stage.scene.instances) m.worldFromObject = scale * m.worldFromObject;
+    for (ShapeInstance& m : stage.scene.shapes) m.worldFromObject = scale * m.worldFromObject;
+    for (Light& l : stage.scene.lights) l.worldPosition *= unit;
+    stage.scene.cameras[0].zNear *= unit;
+    return render(device(), stage.scene, settingsFor(Method::whitted, 64, 48)).image;
+  };
+  const Image reference = draw(1.0);
+  for (const double unit : {0x1p-20, 0x1p-10, 0x1p10, 0x1p20}) {  // powers of two: not even the rounding differs
+    const Difference d = largestDifference(reference, draw(unit), [](std::uint32_t, std::uint32_t) { return true; });
+    EXPECT_TRUE(d.maximum <= 1e-3) << "unit " << unit << ": " << d;
+  }
+}
+
+}  // namespace
+}  // namespace crosslight::testing
