@@ -105,9 +105,15 @@ class Raster final : public Technique {
     return s;
   }
 
+  // Of the picture only: the AOVs hold the parts before the clamp, which has none.
+  bool clampsColors() const {
+    return settings_.clampVertexColors && (settings_.method == Method::flat || settings_.method == Method::gouraud);
+  }
+
   void makePipelines(const gpu::Device& device) {
     const MethodShaders shaders = shadersOf(settings_);
     gpu::GraphicsState color = baseState(shaders.vertex, shaders.fragment);
+    color.constants = constantsOf(plan_, clampsColors() ? kVariantClampVertexColors : 0u);
     if (settings_.method == Method::wireframe) {
       color.polygonMode = gpu::PolygonMode::line;
       color.depthTest = gpu::DepthTest::greaterOrEqual;

@@ -29,7 +29,7 @@ struct RenderSettings {
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;
   bool hiddenLines = false;        // wireframe: draw hidden edges too
-  bool clampVertexColors = false;  // gouraud and flat: as OpenGL's fixed function does
+  bool clampVertexColors = false;  // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
   bool allEffects = false;         // compile and run everything instead of what the scene calls for
   bool allowNonfinite = false;     // NaN and Inf in the result are reported but do not fail the run
   std::vector<std::string> aovs;   // names of kAovNames

@@ -57,6 +57,23 @@ LightSums lighting(SurfacePoint s) {
 #endif
 }
 
+#ifndef CL_AOV
+vec3 litColor(SurfaceInput at, SurfacePoint s) {
+  bool clamps = (specVariant & kVariantClampVertexColors) != 0u;
+#ifdef CL_SUMS_MODE
+  if (clamps) {  // the vertex stage has composed the color: only what textures do is left
+    MaterialRecord m = materials[at.materialId];
+    vec3 color = lighting(s).ambient;
+    if (CL_HAS(baseColorTexture) && hasTexture(m.baseColorTexture)) color *= sampleTexture(m.baseColorTexture, at.uv0, at.uv1).rgb;
+    if (CL_HAS(emissiveTexture) && hasTexture(m.emissiveTexture)) color += s.emission;
+    return color;
+  }
+#endif
+  vec3 color = sumOf(compose(s, lighting(s), frame.ambient));
+  return clamps ? clamp(color, 0.0, 1.0) : color;
+}
+#endif
+
 #ifdef CL_AOV
 void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
   uint pixel = uint(gl_FragCoord.y) * frame.resolution.x + uint(gl_FragCoord.x) - pushed.firstPixel;
@@ -86,12 +103,11 @@ void main() {
     if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.colored ? at.color.a : 1.0))) discard;
   }
   SurfacePoint s = surfaceAt(at);
-  ShadedParts parts = compose(s, lighting(s), frame.ambient);
 #ifdef CL_AOV
-  record(at, s, parts);
+  record(at, s, compose(s, lighting(s), frame.ambient));
 #else
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   float through = CL_HAS(transparency) ? maxComponent(s.transmissionColor) * float(s.model == kModel_cookTorrance) : 0.0;
-  outColor = vec4(sumOf(parts) * opacity, opacity * (1.0 - through));
+  outColor = vec4(litColor(at, s) * opacity, opacity * (1.0 - through));
 #endif
 }

@@ -1,4 +1,8 @@
 // Vertex stage of every raster method. With CL_SUMS_MODE it also lights the vertex, front and back.
+//
+// specVariant bit 0 (kVariantClampVertexColors), OpenGL 1.x 2.13.6: the lit color of each side, without textures, is
+// clamped to [0,1] here and travels as the first of the sums, the others zero. The fragments multiply it by the base
+// color texture (GL_MODULATE) and add emission that a texture varies, which OpenGL does not have.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #define CL_UNTEXTURED
@@ -24,7 +28,11 @@ LightSums lightVertex(bool frontFacing) {
                                  inUv1, inColor, draws[gl_InstanceIndex].materialId, frontFacing,
                                  (draws[gl_InstanceIndex].flags & kDrawHasColors) != 0u, false);
   SurfacePoint s = surfaceAt(at);
-  return illuminate(s, viewDirection(inPosition), 0u, frame.lightCount);
+  LightSums sums = illuminate(s, viewDirection(inPosition), 0u, frame.lightCount);
+  if ((specVariant & kVariantClampVertexColors) == 0u) return sums;
+  if (CL_HAS(emissiveTexture) && hasTexture(materials[at.materialId].emissiveTexture)) s.emission = vec3(0.0);
+  vec3 color = clamp(sumOf(compose(s, sums, frame.ambient)), 0.0, 1.0);
+  return LightSums(color, vec3(0.0), vec3(0.0), vec3(0.0));
 }
 #endif
 

@@ -48,6 +48,7 @@ CL_CONST uint kSpecLights = 1;   // bit i: light type i may occur
 CL_CONST uint kSpecShapes = 2;   // bit i: shape kind i may occur
 CL_CONST uint kSpecEffects = 3;  // bits of CL_EFFECTS
 CL_CONST uint kSpecVariant = 4;  // of one shader; documented there
+CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' variant
 
 // Counters that shaders add to.
 CL_CONST uint kCounterRayNodes = 0;      // ray nodes allocated
