@@ -151,6 +151,8 @@ std::vector<NodePose> restPose(const Source& source) {
     pose.scale = vec3Of(node.scale, glm::dvec3(1.0));
     if (node.mesh >= 0) {
       const auto mesh = static_cast<std::size_t>(node.mesh);
+      // Three copies: this one, the key of the shared mesh, and the one on its way.
+      source.document.budget.charge(targetCount(source, mesh) * sizeof(double) * 3, source.document.root());
       pose.weights = !node.weights.empty() ? node.weights : source.model.meshes[mesh].weights;
       pose.weights.resize(targetCount(source, mesh), 0.0);
     }

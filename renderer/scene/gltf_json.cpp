@@ -35,13 +35,26 @@ std::string joined(std::initializer_list<std::string_view> names) {
   return text;
 }
 
+// What a file says ends up in terminals: no control characters, no pages of text.
+std::string printable(std::string text) {
+  constexpr std::size_t kMaxShown = 400;
+  if (text.size() > kMaxShown) {
+    text.resize(kMaxShown);
+    text += "...";
+  }
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string JsonAt::place() const { return *file_ + ": " + (path_.empty() ? std::string("/") : path_); }
+std::string JsonAt::place() const { return *file_ + ": " + (path_.empty() ? std::string("/") : printable(path_)); }
 
-void JsonAt::fail(const std::string& what) const { throw InputError(place(), what); }
+void JsonAt::fail(const std::string& what) const { throw InputError(place(), printable(what)); }
 
-void JsonAt::warn(const std::string& what) const { logWarning(place() + ": " + what); }
+void JsonAt::warn(const std::string& what) const { logWarning(place() + ": " + printable(what)); }
 
 void JsonAt::object() const {
   if (!value_->is_object()) fail(fmt::format("must be an object, is {}", value_->type_name()));

@@ -44,6 +44,7 @@ std::optional<Light> readLight(const Source& source, std::size_t index, const gl
   const JsonAt at = punctual->at("lights").item(index);
   Light light;
   light.name = stringOr(at, "name", "");
+  source.document.budget.charge(sizeof(Light) + light.name.size(), node);
   light.type = typeOf(at.at("type").oneOf({"directional", "point", "spot"}));
   light.color = vec3Or(at, "color", light.color, Range::between(0.0, 1.0));
   light.intensity = static_cast<float>(numberOr(at, "intensity", 1.0, Range::atLeast(0.0)));
@@ -66,6 +67,7 @@ std::optional<Camera> readCamera(const Source& source, std::size_t index, const 
   const tinygltf::Camera& lens = source.model.cameras[index];
   Camera camera;
   camera.name = lens.name;
+  source.document.budget.charge(sizeof(Camera) + camera.name.size(), node);
   camera.orthographic = lens.type == "orthographic";
   if (camera.orthographic) {
     camera.xMag = std::abs(lens.orthographic.xmag);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/interrupt.h"
 #include "scene/gltf_build.h"
 #include "scene/gltf_image.h"
 
@@ -120,6 +121,7 @@ class MaterialBuilder {
   int image(std::size_t index) {
     int& known = sceneImage_[index];
     if (known >= 0) return known;
+    throwIfInterrupted();
     const JsonAt at = source_.document.entry("images", index);
     TextureImage decoded = decodeImage(source_.document.images[index], at, source_.document.budget);
     decoded.name = stringOr(at, "name", "");

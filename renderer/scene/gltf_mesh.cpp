@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/interrupt.h"
 #include "scene/gltf_build.h"
 #include "scene/mesh_repair.h"
 
@@ -186,10 +187,12 @@ PosedMesh buildMesh(const Source& source, std::size_t index, const Posing& posin
   const tinygltf::Mesh& mesh = source.model.meshes[index];
   const JsonAt at = source.document.entry("meshes", index);
   PosedMesh posed;
+  source.document.budget.charge(mesh.name.size(), at);
   posed.mesh.name = mesh.name;
   std::vector<std::vector<glm::dvec3>> world;
   std::vector<JsonAt> places;
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    throwIfInterrupted();
     const JsonAt place = at.at("primitives").item(p);
     std::vector<glm::dvec3> positions;
     std::optional<Primitive> primitive =

@@ -100,7 +100,7 @@ class NodeBuilder {
     if (node.mesh >= 0) mesh = meshOf(index, node, at, worldFromObject);
     const bool draws = mesh >= 0 && !scene_.meshes[static_cast<std::size_t>(mesh)].primitives.empty();
     if (!draws && !shape) return;
-    for (const glm::dmat4& objectFromInstance : instanceTransforms(at)) {
+    for (const glm::dmat4& objectFromInstance : instanceTransforms(at, node.name.size())) {
       const glm::dmat4 instance = worldFromObject * objectFromInstance;
       checkFinite(instance, at);
       const std::uint32_t id = scene_.instanceCount++;
@@ -143,14 +143,15 @@ class NodeBuilder {
     return static_cast<int>(scene_.meshes.size()) - 1;
   }
 
-  bool skinApplies(std::size_t mesh, const JsonAt& at) const {
-    for (const tinygltf::Primitive& primitive : source_.model.meshes[mesh].primitives) {
-      if (!primitive.attributes.contains("JOINTS_0")) {
-        at.at("skin").warn("is left out: a primitive of the node's mesh has no joints");
-        return false;
-      }
+  bool skinApplies(std::size_t mesh, const JsonAt& at) {
+    const auto [entry, isNew] = hasJoints_.try_emplace(mesh, false);
+    if (isNew) {
+      const auto& primitives = source_.model.meshes[mesh].primitives;
+      entry->second = std::all_of(primitives.begin(), primitives.end(),
+                                  [](const auto& primitive) { return primitive.attributes.contains("JOINTS_0"); });
     }
-    return true;
+    if (!entry->second) source_.document.notes.add(at, "its skin is left out: a primitive of its mesh has no joints");
+    return entry->second;
   }
 
   std::vector<glm::dmat4> jointMatrices(std::size_t skinIndex) const {
@@ -174,7 +175,7 @@ class NodeBuilder {
   }
 
   // EXT_mesh_gpu_instancing: translation * rotation * scale each; one identity without it.
-  std::vector<glm::dmat4> instanceTransforms(const JsonAt& at) const {
+  std::vector<glm::dmat4> instanceTransforms(const JsonAt& at, std::size_t nameBytes) const {
     const auto instancing = at.extension("EXT_mesh_gpu_instancing");
     if (!instancing) return {glm::dmat4(1.0)};
     const JsonAt attributes = instancing->at("attributes");
@@ -194,7 +195,7 @@ class NodeBuilder {
     const auto translations = asVectors<glm::vec3>(read("TRANSLATION", 3));
     const auto rotations = asVectors<glm::vec4>(read("ROTATION", 4));
     const auto scales = asVectors<glm::vec3>(read("SCALE", 3));
-    source_.document.budget.charge(count.value_or(1) * sizeof(MeshInstance) * 2, *instancing);
+    source_.document.budget.charge(count.value_or(1) * (sizeof(MeshInstance) + nameBytes) * 2, *instancing);
     std::vector<glm::dmat4> transforms;
     for (std::size_t i = 0; i < count.value_or(1); ++i) {
       NodePose pose;
@@ -215,6 +216,7 @@ class NodeBuilder {
   Hierarchy hierarchy_;
   Scene& scene_;
   std::map<std::pair<std::size_t, std::vector<double>>, int> shared_;
+  std::map<std::size_t, bool> hasJoints_;  // by mesh: all primitives
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 // is touched.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/gltf_document.h"
 
 namespace crosslight::gltf {
@@ -90,7 +92,8 @@ void validatePart(const JsonAt& at, const JsonAt& view, const Part& part, bool m
 }
 
 void validateSparse(const JsonAt& sparse, const Part& elements, const Document& document) {
-  const std::int64_t count = sparse.at("count").integer(1, elements.count);
+  constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();  // what tinygltf keeps these numbers in
+  const std::int64_t count = sparse.at("count").integer(1, std::min(elements.count, kMaxInt));
   const auto viewOf = [&](const JsonAt& part) {
     return document.entry("bufferViews", part.at("bufferView").reference(document.count("bufferViews"), "bufferView"));
   };
@@ -100,10 +103,10 @@ void validateSparse(const JsonAt& sparse, const Part& elements, const Document& 
     indices.at("componentType").fail(fmt::format("must be 5121, 5123 or 5125, is {}", type));
   }
   const auto bytes = static_cast<std::int64_t>(componentBytes(type));
-  validatePart(indices, viewOf(indices), {integerOr(indices, "byteOffset", 0), count, bytes, bytes}, false);
+  validatePart(indices, viewOf(indices), {integerOr(indices, "byteOffset", 0, kMaxInt), count, bytes, bytes}, false);
   const JsonAt values = sparse.at("values");
   validatePart(values, viewOf(values),
-               {integerOr(values, "byteOffset", 0), count, elements.bytesEach, elements.alignment}, false);
+               {integerOr(values, "byteOffset", 0, kMaxInt), count, elements.bytesEach, elements.alignment}, false);
 }
 
 void validateAccessor(const JsonAt& accessor, const Document& document) {

@@ -80,17 +80,18 @@ void validateHierarchy(const JsonAt& nodes, std::vector<int>& parents) {
   }
 }
 
-void validateScene(const JsonAt& scene, const Document& document, const std::vector<int>& parents) {
+// `listedBy` holds the last scene (counted from 1) that listed a node.
+void validateScene(const JsonAt& scene, std::size_t number, const std::vector<int>& parents,
+                   std::vector<std::size_t>& listedBy) {
   const auto list = scene.find("nodes");
   if (!list) return;
   if (list->arraySize() == 0) list->warn("is empty, which glTF does not allow");
-  std::vector<bool> listed(parents.size(), false);
   for (const JsonAt& entry : list->items()) {
-    const std::size_t node = entry.reference(document.count("nodes"), "node");
+    const std::size_t node = entry.reference(parents.size(), "node");
     if (parents[node] >= 0)
       entry.fail(fmt::format("node {} has the parent {}, a scene lists roots", node, parents[node]));
-    if (listed[node]) entry.fail(fmt::format("node {} is listed twice", node));
-    listed[node] = true;
+    if (listedBy[node] == number) entry.fail(fmt::format("node {} is listed twice", node));
+    listedBy[node] = number;
   }
 }
 
@@ -140,7 +141,8 @@ void validateNodes(const Document& document) {
     validateHierarchy(*nodes, parents);
   }
   if (const auto scenes = root.find("scenes")) {
-    for (const JsonAt& scene : scenes->items()) validateScene(scene, document, parents);
+    std::vector<std::size_t> listedBy(parents.size(), 0);
+    for (std::size_t i = 0; i < scenes->arraySize(); ++i) validateScene(scenes->item(i), i + 1, parents, listedBy);
   }
   referenceOr(root, "scene", document.count("scenes"), "scene");
   if (const auto skins = root.find("skins")) {

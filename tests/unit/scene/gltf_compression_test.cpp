@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "unit/scene/fuzzer.h"
 #include "unit/scene/gltf_fixture.h"
 
 namespace crosslight::test {
@@ -230,6 +231,35 @@ TEST(GltfMeshopt, BrokenDataAndImpossibleCombinationsAreRefused) {
                                     [](Json& e) { e["mode"] = "MAGIC"; }, [](Json& e) { e["byteStride"] = 10; }}) {
     EXPECT_NE(broken(change).find(place), std::string::npos) << broken(change);
   }
+}
+
+TEST(GltfFuzz, DamagedDracoDataNeverCrash) {
+  const std::string base = dracoSquare();
+  EXPECT_GE(tryMany(2000, "a.gltf",
+                    [&](Fuzzer& f) {
+                      DracoFile draco;
+                      draco.extension()["bufferView"] = draco.file.view(f.damaged(base) + '\0');
+                      return draco.file.embedded();
+                    }),
+            50u);
+}
+
+TEST(GltfFuzz, DamagedMeshoptDataNeverCrash) {
+  const std::string base = encodedVertices(kTriangle.data(), 3, 12);
+  const std::vector<const char*> modes = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+  EXPECT_GE(tryMany(2000, "a.gltf",
+                    [&](Fuzzer& f) {
+                      MeshoptFile meshopt;
+                      const std::string mode = modes[f.below(3)];
+                      const std::string filter = mode == "ATTRIBUTES" && f.below(2) == 0 ? "EXPONENTIAL" : "NONE";
+                      const std::size_t view =
+                          meshopt.compressedView(f.damaged(base) + '\0', mode == "ATTRIBUTES" ? 3 : 9,
+                                                 mode == "ATTRIBUTES" ? 12 : 4, mode, filter);
+                      const std::size_t position = meshopt.accessor(view, 5126, 3, "VEC3");
+                      meshopt.file.node({{"mesh", meshopt.file.mesh({{"attributes", {{"POSITION", position}}}})}});
+                      return meshopt.file.embedded();
+                    }),
+            50u);
 }
 
 }  // namespace

@@ -60,6 +60,15 @@ inline std::size_t widthOf(const std::string& type) {
   return type == "MAT4" ? 16 : 4;
 }
 
+inline std::string percentEncoded(const std::string& bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const char c : bytes) {
+    text += {'%', kDigits[static_cast<unsigned char>(c) >> 4], kDigits[static_cast<unsigned char>(c) & 15]};
+  }
+  return text;
+}
+
 class GltfFile {
  public:
   Json json = {{"asset", {{"version", "2.0"}}}};
@@ -106,6 +115,12 @@ class GltfFile {
       folder_.write("data.bin", bin_);
     }
     return folder_.write(name, out.dump());
+  }
+  // The file with its bytes inside, as text.
+  std::string embedded() const {
+    Json out = json;
+    out["buffers"][0] = {{"uri", "data:," + percentEncoded(bin_)}, {"byteLength", bin_.size()}};
+    return out.dump();
   }
   Scene load(const LoadOptions& options = {}) { return loadScene(save(), options); }
   const TempFolder& folder() const { return folder_; }

@@ -1,19 +1,13 @@
 // Thousands of damaged files, in this process, from fixed seeds: each loads or throws a crosslight::Error. Run under
 // the sanitizers this is also the check that nothing reads out of bounds.
-#include <chrono>
-#include <functional>
-#include <random>
 
+#include "unit/scene/fuzzer.h"
 #include "unit/scene/gltf_fixture.h"
 
 namespace crosslight::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// More than any base file needs, little enough that damaged sizes cannot stall the machine.
-constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
-constexpr auto kTimeLimit = std::chrono::seconds(60);
 
 // A file that uses much of the format, small.
 std::string baseGltf() {
@@ -55,15 +49,7 @@ std::string baseGltf() {
   file.json["accessors"][2]["sparse"] = {{"count", 1},
                                          {"indices", {{"bufferView", sparse}, {"componentType", 5123}}},
                                          {"values", {{"bufferView", file.view(std::vector<float>{1, 2})}}}};
-  // One buffer as a data URI, so that the file stands alone.
-  Json json = file.json;
-  std::string hex;
-  for (const char c : file.bin()) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    hex += {'%', kDigits[static_cast<unsigned char>(c) >> 4], kDigits[static_cast<unsigned char>(c) & 15]};
-  }
-  json["buffers"] = {{{"byteLength", file.bin().size()}, {"uri", "data:application/octet-stream," + hex}}};
-  return json.dump();
+  return file.embedded();
 }
 
 void appendWord(std::string& out, std::uint32_t value) {
@@ -85,103 +71,6 @@ std::string baseGlb() {
   appendWord(out, static_cast<std::uint32_t>(file.bin().size()));
   out += std::string("BIN\0", 4) + file.bin();
   return out;
-}
-
-class Fuzzer {
- public:
-  explicit Fuzzer(unsigned seed) : random_(seed) {}
-
-  std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
-
-  // Flipped, removed, doubled and replaced bytes, a few at a time.
-  std::string damaged(std::string bytes) {
-    for (std::size_t times = 1 + below(4); times > 0 && !bytes.empty(); --times) {
-      const std::size_t at = below(bytes.size());
-      const std::size_t length = std::min(1 + below(8), bytes.size() - at);
-      switch (below(5)) {
-        case 0:
-          bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
-          break;
-        case 1:
-          bytes[at] = static_cast<char>(below(256));
-          break;
-        case 2:
-          bytes.erase(at, length);
-          break;
-        case 3:
-          bytes.insert(at, bytes.substr(at, length));
-          break;
-        default:
-          bytes.resize(at);
-          break;
-      }
-    }
-    return bytes;
-  }
-
-  // One value of the JSON replaced by something that may be of the wrong kind, size or sign.
-  Json damaged(Json json) {
-    std::vector<Json*> values;
-    collect(json, values);
-    static const std::vector<Json> odd = {0,
-                                          1,
-                                          2,
-                                          -1,
-                                          3,
-                                          255,
-                                          65536,
-                                          2147483647,
-                                          4294967295u,
-                                          9007199254740992,
-                                          18446744073709551615u,
-                                          1e-40,
-                                          0.5,
-                                          1e38,
-                                          nullptr,
-                                          true,
-                                          "",
-                                          "x",
-                                          Json::array(),
-                                          Json::object(),
-                                          {0, 0, 0}};
-    for (std::size_t times = 1 + below(3); times > 0; --times) *values[below(values.size())] = odd[below(odd.size())];
-    return json;
-  }
-
- private:
-  static void collect(Json& json, std::vector<Json*>& values) {
-    if (!json.is_structured()) values.push_back(&json);
-    for (Json& child : json) {
-      if (json.is_structured()) collect(child, values);
-    }
-  }
-
-  std::mt19937 random_;
-};
-
-// Runs `make` until `count` files were tried or the time is up; the number tried.
-std::size_t tryMany(std::size_t count, const std::string& name, const std::function<std::string(Fuzzer&)>& make) {
-  setLogLevel(LogLevel::quiet);
-  const TempFolder folder;
-  const auto start = std::chrono::steady_clock::now();
-  std::size_t tried = 0;
-  for (; tried < count && std::chrono::steady_clock::now() - start < kTimeLimit; ++tried) {
-    Fuzzer fuzzer(static_cast<unsigned>(tried));
-    const fs::path file = folder.write(name, make(fuzzer));
-    LoadOptions options;
-    options.maxBytes = kMaxBytes;
-    options.animate = true;
-    options.timeSeconds = 0.5;
-    const auto began = std::chrono::steady_clock::now();
-    try {
-      loadScene(file, options);
-    } catch (const InputError&) {
-      // Refused by name: what is asked for. Anything else ends the test.
-    }
-    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(20)) << name << ", seed " << tried;
-  }
-  setLogLevel(LogLevel::normal);
-  return tried;
 }
 
 TEST(GltfFuzz, TheUndamagedBaseFilesLoad) {
@@ -213,6 +102,26 @@ TEST(GltfFuzz, DamagedForeignFilesNeverCrash) {
     const std::string base((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     ASSERT_FALSE(base.empty()) << name;
     EXPECT_GE(tryMany(500, "a.glb", [&](Fuzzer& f) { return f.damaged(base); }), 50u);
+  }
+}
+
+// A material's normal texture is the image; everything else is well-formed.
+std::string gltfWithImage(const std::string& bytes) {
+  return Json{{"asset", {{"version", "2.0"}}},
+              {"images", {{{"uri", "data:," + percentEncoded(bytes)}}}},
+              {"textures", {{{"source", 0}}}},
+              {"materials", {{{"normalTexture", {{"index", 0}}}}}}}
+      .dump();
+}
+
+TEST(GltfFuzz, DamagedImagesNeverCrash) {
+  const char* assets = std::getenv("CROSSLIGHT_ASSETS");
+  if (assets == nullptr) GTEST_SKIP() << "set CROSSLIGHT_ASSETS to run this";
+  for (const char* name : {"cyan.jpg", "magenta.png", "npot.png"}) {
+    std::ifstream in(fs::path(assets) / "gltf-validator/image" / name, std::ios::binary);
+    const std::string base((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    ASSERT_FALSE(base.empty()) << name;
+    EXPECT_GE(tryMany(1500, "a.gltf", [&](Fuzzer& f) { return gltfWithImage(f.damaged(base)); }), 50u);
   }
 }
 

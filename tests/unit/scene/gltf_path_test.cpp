@@ -140,5 +140,30 @@ TEST(GltfBudget, ManyUsesOfOneAccessorAreCountedEachTime) {
   EXPECT_NE(refusal(file, options).find("more bytes, of the limit of"), std::string::npos);
 }
 
+TEST(GltfBudget, NamesAndWeightsThatAreCopiedManyTimesAreCounted) {
+  LoadOptions options;
+  options.maxBytes = std::uint64_t{64} << 20;
+  GltfFile weights;
+  addTriangle(weights);
+  weights.json["meshes"][0]["primitives"][0]["targets"] = std::vector<Json>(5000, Json{{"POSITION", 0}});
+  for (int i = 0; i < 5000; ++i) weights.node({{"mesh", 0}});
+  EXPECT_NE(refusal(weights, options).find("more bytes, of the limit of"), std::string::npos);
+  GltfFile names;
+  addTriangle(names);
+  names.json["nodes"][0]["name"] = std::string(1000000, 'n');
+  names.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      names.floats(std::vector<float>(3000, 0.0f), "VEC3");
+  EXPECT_NE(refusal(names, options).find("more bytes, of the limit of"), std::string::npos);
+}
+
+TEST(GltfJson, MessagesHoldNoControlCharactersAndNoPages) {
+  GltfFile file;
+  file.json["extensionsRequired"] = {"A\x1b[2J" + std::string(10000, 'x')};
+  const std::string text = refusal(file);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(text.find("'A?[2Jxxx"), std::string::npos);
+  EXPECT_LT(text.size(), 1000u);
+}
+
 }  // namespace
 }  // namespace crosslight::test
