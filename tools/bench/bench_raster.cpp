@@ -1,0 +1,169 @@
+// One frame by each raster method against OSMesa on the same mesh, wall time of both: ours from recording to the
+// picture in a buffer (float RGBA), OSMesa's from the clear to glFinish (8-bit RGBA: less to write, its users' usual
+// format). That both draw the same picture is checked first.
+#include <algorithm>
+#include <cmath>
+
+#include "base/time.h"
+#include "bench/bench.h"
+#include "bench/knot_scene.h"
+#include "bench/osmesa_peer.h"
+#include "raster/raster.h"
+#include "scene/load.h"
+#include "upload/records.h"
+
+namespace crosslight::bench {
+namespace {
+
+struct Row {
+  Method method;
+  const char* name;
+  GlShading shading;
+};
+constexpr Row kRows[] = {{Method::flat, "flat", GlShading::flat},
+                         {Method::gouraud, "gouraud", GlShading::gouraud},
+                         {Method::phong, "phong", GlShading::phong}};
+
+// A channel rounded to 8 bits is off by half a step, and both sides' arithmetic may tip it once more. A pixel further
+// off lies at an edge that the two rasterizers place differently: coordinates are rounded to 8 bits below a pixel, so
+// edges differ by 1/256 pixel on either side, and silhouettes cross fewer than one pixel in ten: one pixel in 1000 at
+// most.
+constexpr double kOneStep = 1.0 / 255.0;
+constexpr double kMostAtEdges = 1e-3;
+
+// Vulkan's clip space (y down, depth 1 at the near plane and 0 far away) to OpenGL's (y up, -1 and +1).
+glm::mat4 glFromVulkanClip() {
+  glm::mat4 m(1.0f);
+  m[1][1] = -1.0f;
+  m[2][2] = -2.0f;
+  m[3][2] = 1.0f;
+  return m;
+}
+
+// One method ready to draw.
+class OurFrame {
+ public:
+  OurFrame(const gpu::Device& device, const Scene& scene, Method method, std::uint32_t size)
+      : settings_(settingsFor(method, size)),
+        plan_(makePlan(scene, settings_)),
+        gpuScene_(device, scene, settings_, flattenScene(scene, renderOrigin(scene.cameras[0]), false), nullptr),
+        film_(device, {size, size, samplePattern(1, FilterShape::box, 0), false}),
+        technique_(makeRaster(device, gpuScene_, plan_, settings_, film_.buffers())) {}
+
+  // Wall milliseconds, and the device's own figure for the drawing, as `name` and `name`.device.
+  Measured draw(const std::string& name) {
+    Tally tally;
+    const Stopwatch watch;
+    technique_->renderSample({{0, settings_.height}, settings_.width, glm::vec2(0.5f), true, false}, tally);
+    const double wallMs = watch.elapsedMs();
+    double deviceMs = 0;
+    for (const auto& [span, ms] : tally.spansMs()) deviceMs += ms;
+    return {{name, wallMs}, {name + ".device", deviceMs}};
+  }
+
+  std::vector<glm::vec4> pixels() { return film_.buffers().sampleColor.readAll<glm::vec4>(); }
+
+  static RenderSettings settingsFor(Method method, std::uint32_t size) {
+    RenderSettings s = knotSettings(method, size, size);
+    s.twoSided = TwoSided::material;  // back faces are culled on both sides
+    return s;
+  }
+
+ private:
+  RenderSettings settings_;
+  Plan plan_;
+  GpuScene gpuScene_;
+  Film film_;
+  std::unique_ptr<Technique> technique_;
+};
+
+// The spans point into `flat` and `normals`.
+GlScene glSceneOf(const Scene& scene, const FlatScene& flat, const std::vector<glm::vec3>& normals,
+                  const RenderSettings& settings) {
+  const glm::dvec3 origin = renderOrigin(scene.cameras[0]);
+  const ClassicMaterial& m = scene.materials[flat.draws[0].materialId].classic;
+  const Light& light = scene.lights.front();
+  GlScene gl;
+  gl.positions = flat.positions;
+  gl.normals = normals;
+  gl.indices = flat.indices;
+  gl.glClipFromRender = glFromVulkanClip() * makeFrameRecord(scene, settings, glm::vec2(0.5f)).clipFromRender;
+  gl.sceneAmbient = scene.atmosphere.ambient;
+  gl.ka = m.ambientFactor, gl.kd = m.diffuseFactor, gl.ks = m.specularFactor, gl.shininess = m.shininess;
+  gl.lightPosition = glm::vec3(light.worldPosition - origin);
+  gl.lightDiffuse = light.classic->diffuse;
+  gl.lightSpecular = light.classic->specular;
+  gl.lightAttenuation = light.classic->attenuation;
+  return gl;
+}
+
+struct Difference {
+  double rmse = 0;
+  std::size_t pixelsApart = 0;
+};
+
+Difference differenceOf(const std::vector<glm::vec4>& ours, const std::vector<std::uint8_t>& theirs) {
+  Difference result;
+  double sum = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    bool close = true;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double mine = std::clamp<double>(ours[i][static_cast<int>(c)], 0.0, 1.0);
+      const double difference = mine - theirs[4 * i + c] / 255.0;
+      close = close && std::abs(difference) <= kOneStep;
+      sum += difference * difference;
+    }
+    if (!close) ++result.pixelsApart;
+  }
+  result.rmse = std::sqrt(sum / (3.0 * static_cast<double>(ours.size())));
+  return result;
+}
+
+// Share of pixels that are not black: a check on two black pictures checks nothing.
+double coverageOf(const std::vector<glm::vec4>& pixels) {
+  const auto lit = std::count_if(pixels.begin(), pixels.end(), [](const glm::vec4& p) { return p.x > 0; });
+  return static_cast<double>(lit) / static_cast<double>(pixels.size());
+}
+
+void drawFrames(Bench& bench, std::uint32_t triangles, std::uint32_t size) {
+  const std::string prefix = "raster." + shortCount(triangles) + ".";
+  const Scene scene = loadScene(writeKnotScene(bench.scratch, triangles));
+  const FlatScene flat = flattenScene(scene, renderOrigin(scene.cameras[0]), false);
+  std::vector<glm::vec3> normals;
+  for (const shared::VertexAttributes& a : flat.attributes) normals.push_back(a.renderNormal);
+  std::optional<OsmesaPeer> osmesa;
+  if (osmesaAvailable()) {
+    osmesa.emplace(glSceneOf(scene, flat, normals, OurFrame::settingsFor(Method::flat, size)), size, size);
+    bench.report.addCheck(prefix + "osmesa", true, {{"renderer", osmesa->renderer()}});
+  }
+  for (const Row& row : kRows) {
+    const std::string ours = prefix + row.name, theirs = ours + ".osmesa";
+    OurFrame frame(bench.device(), scene, row.method, size);
+    std::vector<Contender> contenders{[&] { return frame.draw(ours); }};
+    if (osmesa) {
+      contenders.push_back([&] { return Measured{{theirs, osmesa->frame(row.shading)}}; });
+      frame.draw(ours);
+      osmesa->frame(row.shading);
+      const std::vector<glm::vec4> pixels = frame.pixels();
+      const Difference d = differenceOf(pixels, osmesa->pixels());
+      const double coverage = coverageOf(pixels), most = kMostAtEdges * static_cast<double>(pixels.size());
+      bench.report.addCheck(ours + ".picture", static_cast<double>(d.pixelsApart) <= most && coverage > 0.1,
+                            {{"pixelsApart", d.pixelsApart}, {"rmse", d.rmse}, {"coverage", coverage}});
+    }
+    const Rounds rounds = interleave(contenders, bench.rounds);
+    bench.report.addTime(ours, rounds);
+    bench.report.addTime(ours + ".device", rounds);
+    if (osmesa) bench.report.compare(ours, theirs, rounds, Quantity::time);
+  }
+}
+
+}  // namespace
+
+void benchRaster(Bench& bench) {
+  if (!osmesaAvailable()) bench.report.omit("raster against OSMesa", kNoOsmesa);
+  if (bench.quick) return drawFrames(bench, 2'000, 64);
+  for (const std::uint32_t triangles : {10'000u, 100'000u}) drawFrames(bench, triangles, 1024);
+  if (bench.large) drawFrames(bench, 1'000'000, 1024);
+}
+
+}  // namespace crosslight::bench

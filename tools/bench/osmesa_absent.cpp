@@ -1,0 +1,21 @@
+// Built where CMake found no OSMesa.
+#include "base/error.h"
+#include "bench/osmesa_peer.h"
+
+namespace crosslight::bench {
+namespace {
+
+[[noreturn]] void absent() { throw InternalError("this program was built without OSMesa"); }
+
+}  // namespace
+
+bool osmesaAvailable() { return false; }
+
+struct OsmesaPeer::Impl {};
+OsmesaPeer::OsmesaPeer(const GlScene&, std::uint32_t, std::uint32_t) { absent(); }
+OsmesaPeer::~OsmesaPeer() = default;
+std::string OsmesaPeer::renderer() const { absent(); }
+double OsmesaPeer::frame(GlShading) { absent(); }
+const std::vector<std::uint8_t>& OsmesaPeer::pixels() const { absent(); }
+
+}  // namespace crosslight::bench
