@@ -17,12 +17,6 @@ namespace {
 constexpr float kWireBiasConstant = -2.0f;
 constexpr float kWireBiasSlope = -2.0f;
 
-std::vector<gpu::Binding> rasterBindings() {
-  std::vector<gpu::Binding> bindings = sceneBindings();
-  bindings.push_back({kBindAovs, gpu::BindingType::storageBuffer});
-  return bindings;
-}
-
 class Raster final : public Technique {
  public:
   Raster(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings,
@@ -31,7 +25,7 @@ class Raster final : public Technique {
         plan_(plan),
         settings_(settings),
         buffers_(buffers),
-        layout_(device, rasterBindings(), sizeof(RasterPush)),
+        layout_(device, sceneBindings({kBindAovs}), sizeof(RasterPush)),
         set_(device, layout_),
         commands_(device) {
     scene_.bind(set_);

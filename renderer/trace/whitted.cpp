@@ -23,15 +23,6 @@ constexpr std::uint32_t kChunkPixels = 1u << 17;  // ray nodes are 84 bytes: a c
 constexpr std::uint32_t kNodesPerPixel = 4;       // room for the tree, on average; a fuller chunk is halved
 constexpr std::uint32_t kLightBatch = 16;         // lights whose visibility is kept at once
 
-std::vector<gpu::Binding> whittedBindings() {
-  std::vector<gpu::Binding> bindings = sceneBindings();
-  for (const std::uint32_t slot :
-       {kBindRayNodes, kBindHits, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs}) {
-    bindings.push_back({slot, gpu::BindingType::storageBuffer});
-  }
-  return bindings;
-}
-
 class Whitted final : public Technique {
  public:
   Whitted(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings,
@@ -41,7 +32,9 @@ class Whitted final : public Technique {
         plan_(plan),
         settings_(settings),
         buffers_(buffers),
-        layout_(device, whittedBindings(), sizeof(TracePush)),
+        layout_(device,
+                sceneBindings({kBindRayNodes, kBindHits, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs}),
+                sizeof(TracePush)),
         set_(device, layout_),
         commands_(device) {
     makePipelines();

@@ -51,12 +51,15 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindBvhPrimitives, primitives_);
 }
 
-std::vector<gpu::Binding> sceneBindings() {
+std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots) {
   using enum gpu::BindingType;
-  return {{kBindFrame, uniformBuffer},       {kBindMaterials, storageBuffer},       {kBindLights, storageBuffer},
-          {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, storageBuffer},
-          {kBindIndices, storageBuffer},     {kBindShapes, storageBuffer},          {kBindTexels, texelBufferFloat4},
-          {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
+  std::vector<gpu::Binding> bindings{
+      {kBindFrame, uniformBuffer},       {kBindMaterials, storageBuffer},       {kBindLights, storageBuffer},
+      {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, storageBuffer},
+      {kBindIndices, storageBuffer},     {kBindShapes, storageBuffer},          {kBindTexels, texelBufferFloat4},
+      {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
+  for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});
+  return bindings;
 }
 
 gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant) {

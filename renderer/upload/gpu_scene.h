@@ -1,6 +1,7 @@
 // The scene on the device: every buffer that shaders read, bound in one go.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ class GpuScene {
       primitives_;
 };
 
-// The slots that GpuScene binds, for layouts.
-std::vector<gpu::Binding> sceneBindings();
+// The slots that GpuScene binds, for layouts, and storage buffers of the technique's own.
+std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots = {});
 // The plan as specialisation constants, with the variant of one shader.
 gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant = 0);
 

@@ -12,13 +12,6 @@ namespace {
 
 constexpr std::uint32_t kGroupSize = 64;  // local_size_x of the kernels
 
-std::vector<gpu::Binding> bindings() {
-  std::vector<gpu::Binding> all = sceneBindings();
-  for (const std::uint32_t slot : {kBindRayNodes, kBindHits, kBindVisibility, kBindCounters})
-    all.push_back({slot, gpu::BindingType::storageBuffer});
-  return all;
-}
-
 template <class Record>
 gpu::Buffer storage(const gpu::Device& device, const char* name, std::uint64_t count) {
   return gpu::Buffer(device, name, count * sizeof(Record), gpu::useStorage);
@@ -34,7 +27,7 @@ RayKernels::RayKernels(const gpu::Device& device, GpuScene& scene, const Plan& p
       hits_(storage<HitRecord>(device, "hits", pixels_)),
       visibility_(storage<float>(device, "visibility", pixels_)),
       counters_(device, "counters", kCounterCount * sizeof(std::uint32_t), gpu::useStorage | gpu::useReadback),
-      layout_(device, bindings(), sizeof(TracePush)),
+      layout_(device, sceneBindings({kBindRayNodes, kBindHits, kBindVisibility, kBindCounters}), sizeof(TracePush)),
       set_(device, layout_),
       commands_(device) {
   CL_CHECK_EQ(scene.lightCount(), 1u);
