@@ -5,54 +5,54 @@
 
 // What a scene may call for beyond its models, lights and shapes: X(bit, name). Analysis gives each a reason;
 // a bit that is off removes the code from every pipeline.
-#define CL_EFFECTS(X)              \
-  X(0, baseColorTexture)           \
-  X(1, metallicRoughnessTexture)   \
-  X(2, normalMap)                  \
-  X(3, occlusionTexture)           \
-  X(4, emissiveTexture)            \
-  X(5, vertexColors)               \
-  X(6, alphaMask)                  \
-  X(7, transparency)               \
-  X(8, twoSided)                   \
-  X(9, shadows)                    \
-  X(10, reflection)                \
-  X(11, refraction)                \
-  X(12, absorption)                \
+#define CL_EFFECTS(X)            \
+  X(0, baseColorTexture)         \
+  X(1, metallicRoughnessTexture) \
+  X(2, normalMap)                \
+  X(3, occlusionTexture)         \
+  X(4, emissiveTexture)          \
+  X(5, vertexColors)             \
+  X(6, alphaMask)                \
+  X(7, transparency)             \
+  X(8, twoSided)                 \
+  X(9, shadows)                  \
+  X(10, reflection)              \
+  X(11, refraction)              \
+  X(12, absorption)              \
   X(13, shapes)
 
 CL_SHARED_BEGIN
-CL_CONST uint kBindFrame = 0;          // uniform FrameRecord
-CL_CONST uint kBindMaterials = 1;      // MaterialRecord[]
-CL_CONST uint kBindLights = 2;         // LightRecord[]
-CL_CONST uint kBindDraws = 3;          // DrawRecord[]
-CL_CONST uint kBindPositions = 4;      // vec3[], render space
-CL_CONST uint kBindAttributes = 5;     // VertexAttributes[]
-CL_CONST uint kBindIndices = 6;        // uint[3 * triangles]
-CL_CONST uint kBindShapes = 7;         // ShapeRecord[]
-CL_CONST uint kBindTexels = 8;         // texel buffer, RGBA32F, linear
-CL_CONST uint kBindBvhNodes = 9;       // texel buffer, RGBA32UI, 4 per node
-CL_CONST uint kBindBvhPrimitives = 10; // texel buffer, RGBA32UI, 3 per primitive
-CL_CONST uint kBindRayNodes = 11;      // RayNode[]
-CL_CONST uint kBindHits = 12;          // HitRecord[], one per ray node
-CL_CONST uint kBindVisibility = 13;    // float[nodes of the level * lights of the batch]
-CL_CONST uint kBindCounters = 14;      // uint[kCounterCount]
-CL_CONST uint kBindSampleColor = 15;   // vec4[pixels of the band]: one sample of the picture
-CL_CONST uint kBindAovs = 16;          // AovRecord[pixels of the band], or one dummy
-CL_CONST uint kBindFilm = 17;          // FilmPixel[pixels of the band]
-CL_CONST uint kBindFilmParts = 18;     // FilmParts[pixels of the band], or one dummy
+CL_CONST uint kBindFrame = 0;           // uniform FrameRecord
+CL_CONST uint kBindMaterials = 1;       // MaterialRecord[]
+CL_CONST uint kBindLights = 2;          // LightRecord[]
+CL_CONST uint kBindDraws = 3;           // DrawRecord[]
+CL_CONST uint kBindPositions = 4;       // vec3[], render space
+CL_CONST uint kBindAttributes = 5;      // VertexAttributes[]
+CL_CONST uint kBindIndices = 6;         // uint[3 * triangles]
+CL_CONST uint kBindShapes = 7;          // ShapeRecord[]
+CL_CONST uint kBindTexels = 8;          // texel buffer, RGBA32F, linear
+CL_CONST uint kBindBvhNodes = 9;        // texel buffer, RGBA32UI, 4 per node
+CL_CONST uint kBindBvhPrimitives = 10;  // texel buffer, RGBA32UI, 3 per primitive
+CL_CONST uint kBindRayNodes = 11;       // RayNode[]
+CL_CONST uint kBindHits = 12;           // HitRecord[], one per ray node
+CL_CONST uint kBindVisibility = 13;     // float[nodes of the level * lights of the batch]
+CL_CONST uint kBindCounters = 14;       // uint[kCounterCount]
+CL_CONST uint kBindSampleColor = 15;    // vec4[pixels of the band]: one sample of the picture
+CL_CONST uint kBindAovs = 16;           // AovRecord[pixels of the band], or one dummy
+CL_CONST uint kBindFilm = 17;           // FilmPixel[pixels of the band]
+CL_CONST uint kBindFilmParts = 18;      // FilmParts[pixels of the band], or one dummy
 
 // Specialisation constants; their defaults in the shaders are "everything".
-CL_CONST uint kSpecModels = 0;   // bit i: illumination model i may occur
-CL_CONST uint kSpecLights = 1;   // bit i: light type i may occur
-CL_CONST uint kSpecShapes = 2;   // bit i: shape kind i may occur
-CL_CONST uint kSpecEffects = 3;  // bits of CL_EFFECTS
-CL_CONST uint kSpecVariant = 4;  // of one shader; documented there
+CL_CONST uint kSpecModels = 0;                 // bit i: illumination model i may occur
+CL_CONST uint kSpecLights = 1;                 // bit i: light type i may occur
+CL_CONST uint kSpecShapes = 2;                 // bit i: shape kind i may occur
+CL_CONST uint kSpecEffects = 3;                // bits of CL_EFFECTS
+CL_CONST uint kSpecVariant = 4;                // of one shader; documented there
 CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' variant
 
 // Counters that shaders add to.
-CL_CONST uint kCounterRayNodes = 0;      // ray nodes allocated
-CL_CONST uint kCounterOverflow = 1;      // ray nodes that found no room
+CL_CONST uint kCounterRayNodes = 0;  // ray nodes allocated
+CL_CONST uint kCounterOverflow = 1;  // ray nodes that found no room
 CL_CONST uint kCounterShadowRays = 2;
 CL_CONST uint kCounterReflection = 3;
 CL_CONST uint kCounterRefraction = 4;
@@ -64,19 +64,19 @@ CL_CONST uint kCounterCount = 16;
 
 // One ray of the ray tree. Children are added back into their parent level by level.
 struct RayNode {
-  vec3 origin;      // render space
+  vec3 origin;  // render space
   float tMin;
-  vec3 direction;   // camera rays: component along cameraForward is 1, so t is the depth; others unit
+  vec3 direction;  // camera rays: component along cameraForward is 1, so t is the depth; others unit
   float tMax;
-  vec3 weight;      // share of this node's value in its parent
-  uint pixel;       // within the band
-  vec3 value;       // radiance that arrives along the ray; complete after the gather pass
-  uint kind;        // kRay*
-  uint reflected;   // node of the reflected child, or kNoRayNode
-  uint transmitted; // node of the refracted or straight-through child, or kNoRayNode
-  uint medium;      // material that the ray travels in, or kNoRayNode for the surrounding
+  vec3 weight;       // share of this node's value in its parent
+  uint pixel;        // within the band
+  vec3 value;        // radiance that arrives along the ray; complete after the gather pass
+  uint kind;         // kRay*
+  uint reflected;    // node of the reflected child, or kNoRayNode
+  uint transmitted;  // node of the refracted or straight-through child, or kNoRayNode
+  uint medium;       // material that the ray travels in, or kNoRayNode for the surrounding
   uint depth;
-  float alpha;      // coverage of what the ray meets
+  float alpha;  // coverage of what the ray meets
 };
 CL_SIZE(RayNode, 84)
 CL_CONST uint kNoRayNode = 0xffffffffu;
@@ -114,15 +114,15 @@ CL_SIZE(FilmParts, 60)
 
 // Push constants of the compute kernels.
 struct TracePush {
-  uint firstNode;   // of the level
-  uint nodeCount;   // of the level
-  uint firstLight;  // of the batch
-  uint lightCount;  // of the batch
-  uint firstPixel;  // image pixel index of the band's first pixel
-  uint pixelOffset; // generate: first pixel of the chunk, within the band
+  uint firstNode;    // of the level
+  uint nodeCount;    // of the level
+  uint firstLight;   // of the batch
+  uint lightCount;   // of the batch
+  uint firstPixel;   // image pixel index of the band's first pixel
+  uint pixelOffset;  // generate: first pixel of the chunk, within the band
   uint nodeCapacity;
   uint maxDepth;
-  uint writeAovs;   // 1: the primary level writes AovRecords
+  uint writeAovs;  // 1: the primary level writes AovRecords
 };
 struct RasterPush {
   uint firstTriangle;  // of the draw: added to gl_PrimitiveID

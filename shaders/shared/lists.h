@@ -5,27 +5,27 @@
 #include "types.h"
 
 // X(value, name, GLSL stem, what it is)
-#define CL_ILLUMINATION_MODELS(X)                                                              \
-  X(0, unlit, Unlit, "the base color alone, no lighting (KHR_materials_unlit)")                \
-  X(1, lambert, Lambert, "kd (N.L)")                                                           \
-  X(2, phong, Phong, "kd (N.L) + ks (R.V)^n, Phong 1975")                                      \
-  X(3, blinnPhong, BlinnPhong, "kd (N.L) + ks (N.H)^n, Blinn 1977")                            \
+#define CL_ILLUMINATION_MODELS(X)                                               \
+  X(0, unlit, Unlit, "the base color alone, no lighting (KHR_materials_unlit)") \
+  X(1, lambert, Lambert, "kd (N.L)")                                            \
+  X(2, phong, Phong, "kd (N.L) + ks (R.V)^n, Phong 1975")                       \
+  X(3, blinnPhong, BlinnPhong, "kd (N.L) + ks (N.H)^n, Blinn 1977")             \
   X(4, cookTorrance, CookTorrance, "glTF metallic-roughness: GGX, height-correlated Smith, Schlick")
 
 // X(value, name, GLSL stem, what it is)
-#define CL_LIGHT_TYPES(X)                                            \
-  X(0, point, Point, "a position that radiates in all directions")  \
-  X(1, directional, Directional, "parallel rays from infinity")     \
+#define CL_LIGHT_TYPES(X)                                          \
+  X(0, point, Point, "a position that radiates in all directions") \
+  X(1, directional, Directional, "parallel rays from infinity")    \
   X(2, spot, Spot, "a position that radiates into a cone")
 
 // X(value, name, GLSL stem, what it is). Object space; see shapes.h for the parameters.
-#define CL_SHAPE_KINDS(X)                                                                       \
-  X(0, sphere, Sphere, "|p| = radius")                                                          \
-  X(1, plane, Plane, "y = 0, unbounded")                                                        \
-  X(2, disk, Disk, "y = 0, |p| <= radius")                                                      \
-  X(3, box, Box, "|p_i| <= size_i / 2")                                                         \
-  X(4, cylinder, Cylinder, "axis y, |y| <= height / 2, closed by two disks")                    \
-  X(5, cone, Cone, "axis y, radius at -height/2, apex at +height/2, closed by a disk")          \
+#define CL_SHAPE_KINDS(X)                                                              \
+  X(0, sphere, Sphere, "|p| = radius")                                                 \
+  X(1, plane, Plane, "y = 0, unbounded")                                               \
+  X(2, disk, Disk, "y = 0, |p| <= radius")                                             \
+  X(3, box, Box, "|p_i| <= size_i / 2")                                                \
+  X(4, cylinder, Cylinder, "axis y, |y| <= height / 2, closed by two disks")           \
+  X(5, cone, Cone, "axis y, radius at -height/2, apex at +height/2, closed by a disk") \
   X(6, torus, Torus, "axis y, radius of the center circle, radius of the tube")
 
 // X(value, name, says where lighting is evaluated)

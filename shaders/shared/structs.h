@@ -9,8 +9,8 @@ CL_SHARED_BEGIN
 
 // One vertex as lighting needs it; its render-space position is in a buffer of its own (BVH and raster share it).
 struct VertexAttributes {
-  vec3 renderNormal;  // unit, or zero when the source had none that can be used
-  vec4 renderTangent; // xyz unit, w = handedness of the bitangent (+1 or -1); all zero: none
+  vec3 renderNormal;   // unit, or zero when the source had none that can be used
+  vec4 renderTangent;  // xyz unit, w = handedness of the bitangent (+1 or -1); all zero: none
   vec2 uv0;
   vec2 uv1;
   vec4 color;  // linear RGBA, multiplies the base color; 1 when the mesh has none
@@ -29,7 +29,7 @@ struct DrawRecord {
 CL_SIZE(DrawRecord, 24)
 CL_CONST uint kDrawFlipsWinding = 1u;  // the node's transform mirrors: front faces are clockwise
 CL_CONST uint kDrawHasTangents = 2u;
-CL_CONST uint kDrawHasColors = 4u;    // else the color is 1 exactly, which interpolation need not give back
+CL_CONST uint kDrawHasColors = 4u;  // else the color is 1 exactly, which interpolation need not give back
 
 CL_CONST uint kNoTexture = 0xffffffffu;
 
@@ -38,36 +38,36 @@ struct TextureSlot {
   uint firstTexel;  // in the texel buffer; kNoTexture: the slot is empty
   uint width;
   uint height;
-  uint flags;         // kTexture*
-  vec4 uvFromUvXy;    // column-major 2x2 part of KHR_texture_transform
+  uint flags;       // kTexture*
+  vec4 uvFromUvXy;  // column-major 2x2 part of KHR_texture_transform
   vec2 uvOffset;
 };
 CL_SIZE(TextureSlot, 40)
-CL_CONST uint kTextureUv1 = 1u;           // reads uv1 instead of uv0
-CL_CONST uint kTextureNearest = 2u;       // magnification filter NEAREST (else LINEAR)
-CL_CONST uint kTextureWrapShiftU = 2u;    // two bits: 0 repeat, 1 mirrored repeat, 2 clamp to edge
+CL_CONST uint kTextureUv1 = 1u;         // reads uv1 instead of uv0
+CL_CONST uint kTextureNearest = 2u;     // magnification filter NEAREST (else LINEAR)
+CL_CONST uint kTextureWrapShiftU = 2u;  // two bits: 0 repeat, 1 mirrored repeat, 2 clamp to edge
 CL_CONST uint kTextureWrapShiftV = 4u;
 
 // All models read this record; `model` says which fields count. Ranges are those of glTF unless said otherwise.
 struct MaterialRecord {
-  uint model;   // CL_ILLUMINATION_MODELS
-  uint flags;   // kMaterial*
-  vec4 baseColor;       // cookTorrance, unlit: linear RGBA. Classic models: (1,1,1, opacity)
+  uint model;      // CL_ILLUMINATION_MODELS
+  uint flags;      // kMaterial*
+  vec4 baseColor;  // cookTorrance, unlit: linear RGBA. Classic models: (1,1,1, opacity)
   float metallic;
   float perceptualRoughness;
-  vec3 ambientColor;    // ka, classic models
-  vec3 diffuseColor;    // kd, classic models
-  vec3 specularColor;   // ks, classic models
-  float shininess;      // n >= 0, classic models
-  vec3 emission;        // radiance (or the classic model's unitless emission), strength included
+  vec3 ambientColor;   // ka, classic models
+  vec3 diffuseColor;   // kd, classic models
+  vec3 specularColor;  // ks, classic models
+  float shininess;     // n >= 0, classic models
+  vec3 emission;       // radiance (or the classic model's unitless emission), strength included
   float alphaCutoff;
   float normalScale;
   float occlusionStrength;
-  float transmission;   // share of light that passes, 0..1: KHR_materials_transmission or the classic kt
-  float indexOfRefraction;  // >= 1; 0 means "infinite F0" as KHR_materials_ior says
-  vec3 mirror;          // kr of the classic models: weight of the reflected ray (no Fresnel term)
-  vec3 attenuationColor;    // KHR_materials_volume, per attenuationDistance
-  float attenuationDistance;  // <= 0: no absorption
+  float transmission;            // share of light that passes, 0..1: KHR_materials_transmission or the classic kt
+  float indexOfRefraction;       // >= 1; 0 means "infinite F0" as KHR_materials_ior says
+  vec3 mirror;                   // kr of the classic models: weight of the reflected ray (no Fresnel term)
+  vec3 attenuationColor;         // KHR_materials_volume, per attenuationDistance
+  float attenuationDistance;     // <= 0: no absorption
   TextureSlot baseColorTexture;  // classic: multiplies ka and kd
   TextureSlot metallicRoughnessTexture;
   TextureSlot normalTexture;
@@ -78,26 +78,27 @@ CL_SIZE(MaterialRecord, 332)
 CL_CONST uint kMaterialDoubleSided = 1u;
 CL_CONST uint kMaterialAlphaMask = 2u;
 CL_CONST uint kMaterialAlphaBlend = 4u;
-CL_CONST uint kMaterialMirror = 8u;       // sends a reflected ray in whitted
-CL_CONST uint kMaterialRefracts = 16u;    // sends a refracted ray in whitted (KHR_materials_transmission or kt with an ior)
-CL_CONST uint kMaterialThin = 32u;        // no volume: the transmitted ray goes straight on
-CL_CONST uint kMaterialVolume = 64u;      // KHR_materials_volume is present
+CL_CONST uint kMaterialMirror = 8u;  // sends a reflected ray in whitted
+CL_CONST uint kMaterialRefracts =
+    16u;                              // sends a refracted ray in whitted (KHR_materials_transmission or kt with an ior)
+CL_CONST uint kMaterialThin = 32u;    // no volume: the transmitted ray goes straight on
+CL_CONST uint kMaterialVolume = 64u;  // KHR_materials_volume is present
 
 // One light. Classic lights keep separate ambient, diffuse and specular intensities; glTF lights put the same
 // candela (point, spot) or lux (directional) into diffuse and specular and nothing into ambient.
 struct LightRecord {
-  uint type;   // CL_LIGHT_TYPES
-  uint flags;  // kLight*
+  uint type;            // CL_LIGHT_TYPES
+  uint flags;           // kLight*
   vec3 renderPosition;  // point, spot
   vec3 direction;       // unit, the way the light travels: directional, spot
   vec3 ambient;
   vec3 diffuse;
   vec3 specular;
-  vec3 attenuation;     // kc, kl, kq of 1 / (kc + kl d + kq d^2); d in scene units
-  float range;          // glTF: window ends here; <= 0: unbounded
-  float cosInner;       // spot
-  float cosOuter;       // spot: beyond it nothing
-  float spotExponent;   // classic spot: max(-L.D, 0)^exponent
+  vec3 attenuation;    // kc, kl, kq of 1 / (kc + kl d + kq d^2); d in scene units
+  float range;         // glTF: window ends here; <= 0: unbounded
+  float cosInner;      // spot
+  float cosOuter;      // spot: beyond it nothing
+  float spotExponent;  // classic spot: max(-L.D, 0)^exponent
 };
 CL_SIZE(LightRecord, 96)
 CL_CONST uint kLightClassic = 1u;  // attenuation and exponent as OpenGL has them; else inverse square and smooth cone
@@ -105,46 +106,47 @@ CL_CONST uint kLightClassic = 1u;  // attenuation and exponent as OpenGL has the
 // A shape of the ray tracer; object space as in CL_SHAPE_KINDS.
 struct ShapeRecord {
   uint kind;
-  uint drawId;          // DrawRecord that carries its ids and material
-  vec3 renderCenter;    // image of the object space's origin
+  uint drawId;            // DrawRecord that carries its ids and material
+  vec3 renderCenter;      // image of the object space's origin
   mat3 renderFromObject;  // linear part, column-major
   mat3 objectFromRender;
-  vec4 params;          // sphere: radius; disk: radius; box: size xyz; cylinder, cone: radius, height; torus: center circle's radius, tube's radius
+  vec4 params;  // sphere: radius; disk: radius; box: size xyz; cylinder, cone: radius, height; torus: center circle's
+                // radius, tube's radius
 };
 CL_SIZE(ShapeRecord, 108)
 
 // Everything that is constant for one sample of one frame.
 struct FrameRecord {
-  mat4 clipFromRender;    // reversed Z, y down as Vulkan has it, sample offset included
-  vec3 cameraRight;       // unit, render space
-  vec3 cameraUp;          // unit
-  vec3 cameraForward;     // unit
-  vec2 imagePlaneHalf;    // perspective: (tan(xfov/2), tan(yfov/2)); orthographic: half sizes in scene units
-  vec2 sampleOffset;      // within the pixel, [0,1)^2; (0.5, 0.5) is its center
-  float zNear;            // distance along cameraForward
-  float zFar;             // infinity: none
-  uint orthographic;      // 0 or 1
-  uint infiniteViewer;    // 1: V is the same for every point (OpenGL's default): -cameraForward
-  uvec2 resolution;       // pixels
+  mat4 clipFromRender;  // reversed Z, y down as Vulkan has it, sample offset included
+  vec3 cameraRight;     // unit, render space
+  vec3 cameraUp;        // unit
+  vec3 cameraForward;   // unit
+  vec2 imagePlaneHalf;  // perspective: (tan(xfov/2), tan(yfov/2)); orthographic: half sizes in scene units
+  vec2 sampleOffset;    // within the pixel, [0,1)^2; (0.5, 0.5) is its center
+  float zNear;          // distance along cameraForward
+  float zFar;           // infinity: none
+  uint orthographic;    // 0 or 1
+  uint infiniteViewer;  // 1: V is the same for every point (OpenGL's default): -cameraForward
+  uvec2 resolution;     // pixels
   uint lightCount;
   uint shapeCount;
   uint unboundedShapeCount;  // planes: the first ones in the shape list, outside the BVH
-  uint shapeRoot;         // node at which the shapes' tree begins; the triangles' begins at 0
-  uint twoSided;          // 1: light and show both sides of every surface
-  vec3 ambient;           // Ia
+  uint shapeRoot;            // node at which the shapes' tree begins; the triangles' begins at 0
+  uint twoSided;             // 1: light and show both sides of every surface
+  vec3 ambient;              // Ia
   vec3 background;
 };
 CL_SIZE(FrameRecord, 184)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {
-  float depth;            // distance along cameraForward; 0 where nothing was hit
-  vec3 position;          // render space
-  vec3 normal;            // shading normal, unit, faces the viewer on two-sided surfaces
-  vec3 geometricNormal;   // of the triangle or shape, the same side
-  vec3 albedo;            // base color or kd, textures and vertex color included
-  vec2 uv;                // uv0
-  uint instanceId;        // kNoId where nothing was hit
+  float depth;           // distance along cameraForward; 0 where nothing was hit
+  vec3 position;         // render space
+  vec3 normal;           // shading normal, unit, faces the viewer on two-sided surfaces
+  vec3 geometricNormal;  // of the triangle or shape, the same side
+  vec3 albedo;           // base color or kd, textures and vertex color included
+  vec2 uv;               // uv0
+  uint instanceId;       // kNoId where nothing was hit
   uint primitiveId;
   uint materialId;
   vec3 ambient;
@@ -164,18 +166,19 @@ struct BvhNode {
   vec3 lower1;
   uint splitAxis;  // 0..2: child0 lies on the lower side
   vec3 upper1;
-  uint parent;     // kNoId at the root
+  uint parent;  // kNoId at the root
 };
 CL_SIZE(BvhNode, 64)
 CL_CONST uint kBvhLeaf = 0x80000000u;
-CL_CONST uint kBvhCountShift = 27u;   // 4 bits: 1..15 primitives
+CL_CONST uint kBvhCountShift = 27u;  // 4 bits: 1..15 primitives
 CL_CONST uint kBvhFirstMask = 0x07ffffffu;
-CL_CONST uint kBvhStackSize = 64u;    // depth that the shaders' stack holds; the builder never exceeds it
+CL_CONST uint kBvhStackSize = 64u;  // depth that the shaders' stack holds; the builder never exceeds it
 
-// Primitive of the BVH in leaf order, 48 bytes = three RGBA32F texels. A triangle holds its corners; a shape only its id.
+// Primitive of the BVH in leaf order, 48 bytes = three RGBA32F texels. A triangle holds its corners; a shape only its
+// id.
 struct BvhPrimitive {
   vec3 v0;
-  uint id;     // triangle index, or kPrimitiveIsShape | shape index
+  uint id;  // triangle index, or kPrimitiveIsShape | shape index
   vec3 v1;
   uint drawId;
   vec3 v2;

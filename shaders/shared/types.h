@@ -12,17 +12,17 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#define CL_SHARED_BEGIN        \
+#define CL_SHARED_BEGIN          \
   namespace crosslight::shared { \
-  using uint = std::uint32_t;  \
-  using glm::ivec2;            \
-  using glm::mat3;             \
-  using glm::mat4;             \
-  using glm::mat4x3;           \
-  using glm::uvec2;            \
-  using glm::uvec4;            \
-  using glm::vec2;             \
-  using glm::vec3;             \
+  using uint = std::uint32_t;    \
+  using glm::ivec2;              \
+  using glm::mat3;               \
+  using glm::mat4;               \
+  using glm::mat4x3;             \
+  using glm::uvec2;              \
+  using glm::uvec4;              \
+  using glm::vec2;               \
+  using glm::vec3;               \
   using glm::vec4;
 #define CL_SHARED_END }
 #define CL_CONST constexpr
