@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <numbers>
 
 #include "app/suggest.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "scene/shape_mesh.h"
 
 namespace crosslight {
@@ -25,13 +24,7 @@ Json vectorJson(const V& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-// Names come from files: what would steer the terminal is shown as '?'.
-std::string named(const std::string& name) {
-  std::string shown = name.empty() ? "(no name)" : name;
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-  return shown;
-}
+std::string named(const std::string& name) { return name.empty() ? "(no name)" : printable(name); }
 
 const char* nameOf(AlphaMode mode) {
   switch (mode) {

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "base/text.h"
+
 namespace crosslight {
 namespace {
 
@@ -20,8 +22,8 @@ State& state() {
 }
 
 void print(std::string_view prefix, std::string_view message) {
-  std::fprintf(stderr, "crosslight: %.*s%.*s\n", static_cast<int>(prefix.size()), prefix.data(),
-               static_cast<int>(message.size()), message.data());
+  const std::string shown = printable(message);
+  std::fprintf(stderr, "crosslight: %.*s%s\n", static_cast<int>(prefix.size()), prefix.data(), shown.c_str());
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
   X(1, directional, Directional, "parallel rays from infinity")    \
   X(2, spot, Spot, "a position that radiates into a cone")
 
-// X(value, name, GLSL stem, what it is). Object space; see shapes.h for the parameters.
+// X(value, name, GLSL stem, what it is). Object space; ShapeRecord in structs.h has the parameters.
 #define CL_SHAPE_KINDS(X)                                                              \
   X(0, sphere, Sphere, "|p| = radius")                                                 \
   X(1, plane, Plane, "y = 0, unbounded")                                               \
@@ -34,12 +34,6 @@
   X(1, flat, "once per triangle, at the first or last vertex or the centroid") \
   X(2, gouraud, "once per vertex, interpolated")                               \
   X(3, phong, "once per fragment, the normal interpolated")
-
-CL_SHARED_BEGIN
-CL_CONST uint kIlluminationModelCount = 5;
-CL_CONST uint kLightTypeCount = 3;
-CL_CONST uint kShapeKindCount = 7;
-CL_SHARED_END
 
 #ifdef __cplusplus
 namespace crosslight {
