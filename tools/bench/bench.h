@@ -34,6 +34,8 @@ inline constexpr const char* kNoEmbree =
 inline constexpr const char* kNoOsmesa =
     "this build has no OSMesa: install libosmesa6-dev (ci/setup test) and configure anew";
 
+inline constexpr std::uint32_t kRaySeed = 1;  // of the bounce rays
+
 // Threads that a peer may use: as many as llvmpipe takes (LP_NUM_THREADS if set, else one per CPU).
 unsigned peerThreads();
 

@@ -127,7 +127,7 @@ std::string loadAverage() {
 
 Json recordOf(const Bench& bench, const std::vector<std::string>& words, const gpu::Device* device,
               const Times& timesMs, const std::string& loadAtStart) {
-  Json record = newRecord({"bench", words, std::nullopt, device ? &device->info() : nullptr, timesMs});
+  Json record = newRecord({"bench", words, kRaySeed, device ? &device->info() : nullptr, timesMs});
   record["settings"] = {{"rounds", bench.rounds.rounds},
                         {"warmUps", bench.rounds.warmUps},
                         {"shortestRoundSeconds", bench.rounds.shortestSeconds},
