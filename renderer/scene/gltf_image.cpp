@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
+
+#include "scene/gltf_jpeg.h"
 
 namespace {
 
@@ -17,7 +20,8 @@ constexpr std::size_t kBlockHeaderBytes = alignof(std::max_align_t);
 
 void* boundedMalloc(std::size_t size) {
   if (size > decoderBytesLeft) return nullptr;
-  auto* block = static_cast<unsigned char*>(std::malloc(size + kBlockHeaderBytes));
+  // Zeros: the decoder reads tables that a broken file never filled.
+  auto* block = static_cast<unsigned char*>(std::calloc(size + kBlockHeaderBytes, 1));
   if (block == nullptr) return nullptr;
   decoderBytesLeft -= size;
   std::memcpy(block, &size, sizeof(size));
@@ -46,6 +50,10 @@ void* boundedRealloc(void* pointer, std::size_t size) {
 
 }  // namespace
 
+// A broken invariant of the decoder is the file's fault and must not end the program; loadScene makes an InputError of
+// it.
+#define STBI_ASSERT(condition) \
+  ((condition) ? static_cast<void>(0) : throw std::runtime_error("image decoder: " #condition))
 #define STBI_MALLOC(size) boundedMalloc(size)
 #define STBI_REALLOC(pointer, size) boundedRealloc(pointer, size)
 #define STBI_FREE(pointer) boundedFree(pointer)
@@ -81,9 +89,11 @@ void toFloats(const T* samples, float largest, std::vector<float>& out) {
 
 }  // namespace
 
-TextureImage decodeImage(const Bytes& encoded, const JsonAt& at, Budget& budget) {
-  if (encoded.empty()) at.fail("has no bytes behind it");
-  if (!isPng(encoded) && !isJpeg(encoded)) at.fail("is neither PNG nor JPEG, the formats that glTF allows");
+TextureImage decodeImage(const Bytes& file, const JsonAt& at, Budget& budget) {
+  if (file.empty()) at.fail("has no bytes behind it");
+  if (!isPng(file) && !isJpeg(file)) at.fail("is neither PNG nor JPEG, the formats that glTF allows");
+  const Bytes encoded = isJpeg(file) ? withoutMetadata(file) : file;
+  if (isJpeg(file) && !huffmanTablesFit(encoded)) at.fail("its Huffman tables are broken");
   if (encoded.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) at.fail("is larger than 2 GiB");
   const int size = static_cast<int>(encoded.size());
   int width = 0;

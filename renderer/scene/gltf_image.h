@@ -7,6 +7,6 @@
 namespace crosslight::gltf {
 
 // PNG and JPEG, what glTF allows. InputError when it is neither, broken, or too large to be believed.
-TextureImage decodeImage(const Bytes& encoded, const JsonAt& at, Budget& budget);
+TextureImage decodeImage(const Bytes& file, const JsonAt& at, Budget& budget);
 
 }  // namespace crosslight::gltf

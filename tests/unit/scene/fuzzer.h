@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <random>
 
@@ -86,6 +87,12 @@ class Fuzzer {
   std::mt19937 random_;
 };
 
+// CROSSLIGHT_FUZZ_FACTOR makes every run that many times longer, in files and in time.
+inline std::size_t fuzzFactor() {
+  const char* factor = std::getenv("CROSSLIGHT_FUZZ_FACTOR");
+  return factor == nullptr ? 1 : std::max<std::size_t>(1, std::strtoul(factor, nullptr, 10));
+}
+
 // Runs `make` until `count` files were tried or the time is up; the number tried.
 inline std::size_t tryMany(std::size_t count, const std::string& name,
                            const std::function<std::string(Fuzzer&)>& make) {
@@ -93,7 +100,8 @@ inline std::size_t tryMany(std::size_t count, const std::string& name,
   const TempFolder folder;
   const auto start = std::chrono::steady_clock::now();
   std::size_t tried = 0;
-  for (; tried < count && std::chrono::steady_clock::now() - start < kTimeLimit; ++tried) {
+  count *= fuzzFactor();
+  for (; tried < count && std::chrono::steady_clock::now() - start < kTimeLimit * fuzzFactor(); ++tried) {
     Fuzzer fuzzer(static_cast<unsigned>(tried));
     const std::filesystem::path file = folder.write(name, make(fuzzer));
     LoadOptions options;

@@ -69,6 +69,22 @@ inline std::string percentEncoded(const std::string& bytes) {
   return text;
 }
 
+inline std::string base64Decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xffu);
+  }
+  return bytes;
+}
+
 class GltfFile {
  public:
   Json json = {{"asset", {{"version", "2.0"}}}};
