@@ -18,7 +18,7 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage);
   draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage);
   positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useStorage | gpu::useVertex);
-  attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useStorage | gpu::useVertex);
+  attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
   indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useStorage | gpu::useIndex);
   shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage);
   texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
@@ -55,7 +55,7 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
   using enum gpu::BindingType;
   std::vector<gpu::Binding> bindings{
       {kBindFrame, uniformBuffer},       {kBindMaterials, storageBuffer},       {kBindLights, storageBuffer},
-      {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, storageBuffer},
+      {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, texelBufferFloat4},
       {kBindIndices, storageBuffer},     {kBindShapes, storageBuffer},          {kBindTexels, texelBufferFloat4},
       {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
   for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});

@@ -13,6 +13,7 @@ struct Ray {
   vec3 direction;
   float tMin;
   float tMax;
+  uint from;  // slot of the triangle that the ray leaves, which it cannot meet again; kNoHit: none
 };
 
 const HitRecord kMiss = HitRecord(0.0, kNoHit, 0.0, 0.0);
@@ -20,7 +21,7 @@ const uint kEmptyChild = kBvhLeaf;   // a leaf of no primitives
 const uint kWalkDone = 0xfffffffeu;  // not a child: index bits beyond any list
 const uint kLargestWalk = 60000u;    // Mesa 22.3 ends loops silently at 65,535 iterations: stop before, and count it
 
-Ray rayOf(RayNode node) { return Ray(node.origin, node.direction, node.tMin, node.tMax); }
+Ray rayOf(RayNode node) { return Ray(node.origin, node.direction, node.tMin, node.tMax, node.from); }
 
 struct BoxTest {
   bool hit;
@@ -90,7 +91,7 @@ void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, ino
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
   bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
-  bool closer = h.hit && !cut && isCloser(h.t, p.id, tMax, best.id);
+  bool closer = h.hit && slot != ray.from && !cut && isCloser(h.t, p.id, tMax, best.id);
   if (CL_HAS(alphaMask) && closer && (p.flags & kPrimitiveMayPass) != 0u)
     closer = !maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
   if (closer) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
@@ -100,7 +101,7 @@ void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
   PrimitiveTexels p = fetchPrimitive(slot);
   uint shape = p.id & ~kPrimitiveIsShape;
   float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-  ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax));
+  ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
   bool back = dot(h.n, shapes[shape].objectFromRender * ray.direction) > 0.0;
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
   if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), p.id);
@@ -109,7 +110,7 @@ void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
 void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
   for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
     float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-    ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax));
+    ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
     uint id = kPrimitiveIsShape | i;
     bool cut = cutBackFaces && isOneSided(shapes[i].drawId) && dot(s.n, shapes[i].objectFromRender * ray.direction) > 0.0;
     if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
@@ -230,7 +231,7 @@ float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
   float passed = 0.0;
   if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
     passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
-  return h.hit ? passed : 1.0;
+  return h.hit && slot != ray.from ? passed : 1.0;
 }
 
 float lightPassedShape(uint slot, Ray ray) {

@@ -27,7 +27,7 @@ CL_CONST uint kBindMaterials = 1;       // MaterialRecord[]
 CL_CONST uint kBindLights = 2;          // LightRecord[]
 CL_CONST uint kBindDraws = 3;           // DrawRecord[]
 CL_CONST uint kBindPositions = 4;       // vec3[], render space
-CL_CONST uint kBindAttributes = 5;      // VertexAttributes[]
+CL_CONST uint kBindAttributes = 5;      // texel buffer, RGBA32F, 4 per vertex
 CL_CONST uint kBindIndices = 6;         // uint[3 * triangles]
 CL_CONST uint kBindShapes = 7;          // ShapeRecord[]
 CL_CONST uint kBindTexels = 8;          // texel buffer, RGBA32F, linear
@@ -77,8 +77,9 @@ struct RayNode {
   uint medium;       // material that the ray travels in, or kNoRayNode for the surrounding
   uint depth;
   float alpha;  // coverage of what the ray meets
+  uint from;    // BVH slot of the triangle that the ray leaves; kNoHit: none, or a shape
 };
-CL_SIZE(RayNode, 84)
+CL_SIZE(RayNode, 88)
 CL_CONST uint kNoRayNode = 0xffffffffu;
 CL_CONST uint kRayPrimary = 0u;
 CL_CONST uint kRayReflection = 1u;

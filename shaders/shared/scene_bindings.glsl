@@ -25,10 +25,18 @@ layout(set = 0, binding = kBindMaterials, scalar) readonly buffer MaterialBlock 
 layout(set = 0, binding = kBindLights, scalar) readonly buffer LightBlock { LightRecord lights[]; };
 layout(set = 0, binding = kBindDraws, scalar) readonly buffer DrawBlock { DrawRecord draws[]; };
 layout(set = 0, binding = kBindPositions, scalar) readonly buffer PositionBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindAttributes, scalar) readonly buffer AttributeBlock { VertexAttributes attributes[]; };
+layout(set = 0, binding = kBindAttributes) uniform samplerBuffer attributeTexels;
 layout(set = 0, binding = kBindIndices, scalar) readonly buffer IndexBlock { uint indices[]; };
 layout(set = 0, binding = kBindShapes, scalar) readonly buffer ShapeBlock { ShapeRecord shapes[]; };
 layout(set = 0, binding = kBindTexels) uniform samplerBuffer texels;
 layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
 layout(set = 0, binding = kBindBvhPrimitives) uniform usamplerBuffer bvhPrimitives;
+
+VertexAttributes attributesOf(uint vertex) {
+  int at = int(4u * vertex);
+  vec4 normal = texelFetch(attributeTexels, at);
+  vec4 uvs = texelFetch(attributeTexels, at + 2);
+  return VertexAttributes(normal.xyz, normal.w, texelFetch(attributeTexels, at + 1), uvs.xy, uvs.zw,
+                          texelFetch(attributeTexels, at + 3));
+}
 #endif

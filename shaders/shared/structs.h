@@ -8,14 +8,16 @@
 CL_SHARED_BEGIN
 
 // One vertex as lighting needs it; its render-space position is in a buffer of its own (BVH and raster share it).
+// Four RGBA32F texels: shaders read it as a texel buffer, which may be sixteen times a storage buffer on llvmpipe.
 struct VertexAttributes {
-  vec3 renderNormal;   // unit, or zero when the source had none that can be used
+  vec3 renderNormal;  // unit, or zero when the source had none that can be used
+  float unused;
   vec4 renderTangent;  // xyz unit, w = handedness of the bitangent (+1 or -1); all zero: none
   vec2 uv0;
   vec2 uv1;
   vec4 color;  // linear RGBA, multiplies the base color; 1 when the mesh has none
 };
-CL_SIZE(VertexAttributes, 60)
+CL_SIZE(VertexAttributes, 64)
 
 // One primitive of one mesh instance (raster: one draw), or one analytic shape.
 struct DrawRecord {

@@ -23,6 +23,7 @@ uint addRay(RayNode parent, HitSurface h, vec3 direction, vec3 weight, uint kind
   node.medium = medium;
   node.depth = parent.depth + 1u;
   node.alpha = 0.0;
+  node.from = h.slot;
   nodes[slot] = node;
   atomicAdd(counters[kCounterReflection - kRayReflection + kind], 1u);
   return slot;

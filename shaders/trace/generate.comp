@@ -29,5 +29,6 @@ void main() {
   node.medium = kNoRayNode;
   node.depth = 0u;
   node.alpha = 0.0;
+  node.from = kNoHit;
   nodes[index] = node;
 }

@@ -10,13 +10,14 @@ struct HitSurface {
   vec3 positionError;  // bound of the rounding error of at.renderPos, per axis
   uint drawId;
   uint primitiveId;
+  uint slot;  // of the triangle in the tree; kNoHit for shapes, whose rays may meet them again
 };
 
 HitSurface triangleSurface(HitRecord hit) {
   PrimitiveTexels p = fetchPrimitive(hit.primitive);
-  VertexAttributes a0 = attributes[indices[3u * p.id]];
-  VertexAttributes a1 = attributes[indices[3u * p.id + 1u]];
-  VertexAttributes a2 = attributes[indices[3u * p.id + 2u]];
+  VertexAttributes a0 = attributesOf(indices[3u * p.id]);
+  VertexAttributes a1 = attributesOf(indices[3u * p.id + 1u]);
+  VertexAttributes a2 = attributesOf(indices[3u * p.id + 2u]);
   DrawRecord draw = draws[p.drawId];
   vec3 b = vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
   HitSurface s;
@@ -33,6 +34,7 @@ HitSurface triangleSurface(HitRecord hit) {
   s.at.materialId = draw.materialId;
   s.drawId = p.drawId;
   s.primitiveId = draw.primitiveBase + p.id - draw.firstTriangle;
+  s.slot = hit.primitive;
   return s;
 }
 
@@ -58,6 +60,7 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
   s.at.materialId = draw.materialId;
   s.drawId = shape.drawId;
   s.primitiveId = 0u;
+  s.slot = kNoHit;
   return s;
 }
 

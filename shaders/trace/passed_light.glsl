@@ -11,9 +11,9 @@ float passedLight(MaterialRecord m, float alpha) {
 }
 
 float alphaAtTriangle(uint triangle, uint drawId, float b1, float b2) {
-  VertexAttributes a0 = attributes[indices[3u * triangle]];
-  VertexAttributes a1 = attributes[indices[3u * triangle + 1u]];
-  VertexAttributes a2 = attributes[indices[3u * triangle + 2u]];
+  VertexAttributes a0 = attributesOf(indices[3u * triangle]);
+  VertexAttributes a1 = attributesOf(indices[3u * triangle + 1u]);
+  VertexAttributes a2 = attributesOf(indices[3u * triangle + 2u]);
   DrawRecord draw = draws[drawId];
   float b0 = 1.0 - b1 - b2;
   bool colored = (draw.flags & kDrawHasColors) != 0u;

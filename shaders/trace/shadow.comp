@@ -19,7 +19,7 @@ Ray shadowRay(HitSurface s, LightRecord light, vec3 wi) {
   vec3 origin = leaveSurface(s, wi);
   bool directional = light.type == 1u;
   vec3 toLight = directional ? wi : light.renderPosition - origin;
-  return Ray(origin, toLight, 0.0, directional ? kLargest : kShadowEnd);
+  return Ray(origin, toLight, 0.0, directional ? kLargest : kShadowEnd, s.slot);
 }
 
 void main() {

@@ -181,13 +181,6 @@ class Assets : public ::testing::TestWithParam<std::string> {
   }
 };
 
-// Expected failure, and only where the device's storage buffers end at 128 MiB (llvmpipe): 1,899 instances of a teapot
-// are flattened to 4.2 million vertices of 60 bytes. Its healing shows as a failure of this test.
-bool isBeyondTheDevice(const std::string& file) {
-  return file == "khronos-blender-io/24_gpu_instancing/24_gpu_instancing.gltf" &&
-         device().info().maxStorageBufferBytes < 251'124'000;
-}
-
 constexpr const char* kAbsent =
     "set CROSSLIGHT_ASSETS to the folder that holds khronos-blender-io, vulkan-samples, ...; or the file was refused";
 
@@ -195,10 +188,6 @@ TEST_P(Assets, renderByEveryMethod) {
   const std::optional<Scene> loaded = load();
   if (!loaded) GTEST_SKIP() << kAbsent;
   const Scene& scene = *loaded;
-  if (isBeyondTheDevice(GetParam())) {
-    EXPECT_THROW(render(device(), scene, plainSettings(Method::phong)), DeviceError);
-    return;
-  }
   std::map<Method, Image> images;
   for (const Method method : allMethods()) {
     RenderResult result = render(device(), scene, plainSettings(method));
@@ -224,7 +213,6 @@ class Scenes : public Assets {};
 TEST_P(Scenes, renderWithShadowsMirrorsAndGlass) {
   const std::optional<Scene> scene = load();
   if (!scene) GTEST_SKIP() << kAbsent;
-  if (isBeyondTheDevice(GetParam())) GTEST_SKIP() << "see renderByEveryMethod";
   const RenderResult result = render(device(), *scene, settingsFor(Method::whitted, kWidth, kHeight));
   EXPECT_EQ(result.report.nonfinite, 0u);
   EXPECT_EQ(result.report.counters.at("traversalsCapped"), 0u);

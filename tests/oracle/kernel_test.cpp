@@ -43,6 +43,7 @@ std::vector<shared::RayNode> randomRays(std::uint64_t seed) {
     ray.tMax = std::numeric_limits<float>::infinity();
     ray.kind = shared::kRayReflection;
     ray.medium = shared::kNoRayNode;
+    ray.from = shared::kNoHit;
   }
   return rays;
 }

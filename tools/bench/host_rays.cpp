@@ -117,6 +117,7 @@ std::vector<RayNode> asRayNodes(const HostRays& rays) {
     node.pixel = rays.nodes[i];
     node.kind = shared::kRayReflection;
     node.reflected = node.transmitted = node.medium = shared::kNoRayNode;
+    node.from = shared::kNoHit;
     node.depth = 1;
     nodes.push_back(node);
   }
