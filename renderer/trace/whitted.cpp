@@ -19,7 +19,7 @@ using namespace shared;
 namespace {
 
 constexpr std::uint32_t kGroupSize = 64;          // local_size_x of the kernels
-constexpr std::uint32_t kChunkPixels = 1u << 17;  // ray nodes are 84 bytes: a chunk's first level is 11 MB
+constexpr std::uint32_t kChunkPixels = 1u << 17;  // ray nodes are 88 bytes: a chunk's first level is 11 MB
 constexpr std::uint32_t kNodesPerPixel = 4;       // room for the tree, on average; a fuller chunk is halved
 constexpr std::uint32_t kLightBatch = 16;         // lights whose visibility is kept at once
 
