@@ -89,9 +89,7 @@ class Flattener {
     draw.materialId = static_cast<std::uint32_t>(material);
     draw.instanceId = instanceId;
     draw.primitiveBase = primitiveBase;
-    draw.flags = (place.mirrors ? shared::kDrawFlipsWinding : 0u) |
-                 (p.tangents.empty() ? 0u : shared::kDrawHasTangents) |
-                 (p.colors.empty() ? 0u : shared::kDrawHasColors);
+    draw.flags = (place.mirrors ? shared::kDrawFlipsWinding : 0u) | (p.colors.empty() ? 0u : shared::kDrawHasColors);
     if (draw.triangleCount == 0) return;
     flat_.draws.push_back(draw);
     for (std::size_t i = 0; i < p.positions.size(); ++i) {

@@ -31,7 +31,6 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
 
 void GpuScene::setSample(const glm::vec2& sampleOffset) {
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
-  frame.shapeCount = static_cast<std::uint32_t>(flat_.shapes.size());
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
   frame.shapeRoot = shapeRoot_;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));

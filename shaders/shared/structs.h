@@ -30,8 +30,7 @@ struct DrawRecord {
 };
 CL_SIZE(DrawRecord, 24)
 CL_CONST uint kDrawFlipsWinding = 1u;  // the node's transform mirrors: front faces are clockwise
-CL_CONST uint kDrawHasTangents = 2u;
-CL_CONST uint kDrawHasColors = 4u;  // else the color is 1 exactly, which interpolation need not give back
+CL_CONST uint kDrawHasColors = 2u;     // else the color is 1 exactly, which interpolation need not give back
 
 CL_CONST uint kNoTexture = 0xffffffffu;
 
@@ -131,14 +130,13 @@ struct FrameRecord {
   uint infiniteViewer;  // 1: V is the same for every point (OpenGL's default): -cameraForward
   uvec2 resolution;     // pixels
   uint lightCount;
-  uint shapeCount;
   uint unboundedShapeCount;  // planes: the first ones in the shape list, outside the BVH
   uint shapeRoot;            // node at which the shapes' tree begins; the triangles' begins at 0
   uint twoSided;             // 1: light and show both sides of every surface
   vec3 ambient;              // Ia
   vec3 background;
 };
-CL_SIZE(FrameRecord, 184)
+CL_SIZE(FrameRecord, 180)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {
