@@ -1,11 +1,13 @@
 // From linear radiance to what a display shows: exposure, tone map, sRGB transfer, 8-bit codes.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "image/image_io.h"
+#include "image/display_rows.h"
+#include "image/row_threads.h"
 
 namespace crosslight {
 
@@ -24,7 +26,8 @@ float linearFromSrgb(float srgb) {
 namespace {
 
 // codeFirst[b] is the code of the smallest float whose upper 16 bits are b; threshold[k] the smallest float that gets
-// a code >= k. A bucket spans 1/128 of its value, less than one or two codes: a lookup and at most a few steps.
+// a code >= k. A bucket spans 1/128 of its value at most, over which the code grows by 112 x^(1/2.4) / 128 < 1: a
+// lookup and at most one step.
 struct CodeTable {
   static constexpr std::uint32_t kOne = std::bit_cast<std::uint32_t>(1.0f);
   static constexpr std::uint32_t kShift = 16;
@@ -37,7 +40,11 @@ struct CodeTable {
     threshold[0] = 0;
     threshold[256] = std::numeric_limits<float>::infinity();
     for (int code = 1; code < 256; ++code) {
-      std::uint32_t below = 0, above = kOne;  // bit patterns of floats >= 0 are in the order of their values
+      // Bit patterns of floats >= 0 are in the order of their values. The inverse is off by a few of them at most.
+      const float guess = linearFromSrgb(static_cast<float>((code - 0.5) / 255.0));
+      std::uint32_t below = std::bit_cast<std::uint32_t>(guess), above = below, step = 1;
+      while (codeOf(std::bit_cast<float>(below)) >= code) below -= step *= 2;
+      while (codeOf(std::bit_cast<float>(above)) < code) above += step *= 2;
       while (above - below > 1) {
         const std::uint32_t middle = below + (above - below) / 2;
         (codeOf(std::bit_cast<float>(middle)) >= code ? above : below) = middle;
@@ -51,12 +58,10 @@ struct CodeTable {
     }
   }
 
-  std::uint8_t operator()(float linear) const {
-    if (!(linear > 0)) return 0;
-    const float x = std::min(linear, 1.0f);
-    std::size_t code = codeFirst[std::bit_cast<std::uint32_t>(x) >> kShift];
-    while (x >= threshold[code + 1]) ++code;
-    return static_cast<std::uint8_t>(code);
+  // For 0 <= x <= 1.
+  std::uint8_t operator()(float x) const {
+    const std::size_t code = codeFirst[std::bit_cast<std::uint32_t>(x) >> kShift];
+    return static_cast<std::uint8_t>(code + (x >= threshold[code + 1] ? 1 : 0));
   }
 };
 
@@ -77,6 +82,11 @@ Rgb toneMapNeutral(Rgb c) {
   return {mix(shifted.r), mix(shifted.g), mix(shifted.b)};
 }
 
+const CodeTable& codeTable() {
+  static const CodeTable table;
+  return table;
+}
+
 // Not below 0, not above 1, and never NaN.
 float clamp01(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
 Rgb clamp01(Rgb c) { return {clamp01(c.r), clamp01(c.g), clamp01(c.b)}; }
@@ -86,10 +96,7 @@ float reinhard(float x) { return x > 0 ? x / (1 + x) : 0.0f; }
 
 }  // namespace
 
-std::uint8_t srgbCodeFromLinear(float linear) {
-  static const CodeTable table;
-  return table(linear);
-}
+std::uint8_t srgbCodeFromLinear(float linear) { return codeTable()(clamp01(linear)); }
 
 Rgb applyToneMap(Rgb linear, ToneMap toneMap) {
   switch (toneMap) {
@@ -105,30 +112,65 @@ Rgb applyToneMap(Rgb linear, ToneMap toneMap) {
   return linear;
 }
 
+DisplayRows::DisplayRows(const Image& image, const DisplayTransform& display)
+    : read_(image, image.picture()),
+      width_(image.width),
+      gain_(std::exp2(display.exposureStops)),
+      toneMap_(display.toneMap),
+      withAlpha_(display.withAlpha) {}
+
+namespace {
+
+// Adds what is not finite to `count` and replaces NaN by 0.
+void replaceNonFinite(float (&p)[4], int channels, std::size_t& count) {
+  for (int c = 0; c < channels; ++c) {
+    if (std::isfinite(p[c])) continue;
+    ++count;
+    if (std::isnan(p[c])) p[c] = 0;
+  }
+}
+
+}  // namespace
+
+std::size_t DisplayRows::operator()(std::uint32_t row, std::uint8_t* codes) const {
+  static constexpr float kLargest = std::numeric_limits<float>::max();
+  const CodeTable& table = codeTable();
+  const bool maps = toneMap_ == ToneMap::reinhard || toneMap_ == ToneMap::neutral;
+  const std::size_t first = std::size_t{row} * width_;
+  std::size_t nonFinite = 0;
+  for (std::size_t i = first; i < first + width_; ++i) {
+    float p[4];
+    read_(i, p);
+    // A sum that is finite has finite terms.
+    if (!std::isfinite(p[0] + p[1] + p[2] + p[3])) replaceNonFinite(p, withAlpha_ ? 4 : 3, nonFinite);
+    Rgb shown{p[0] * gain_, p[1] * gain_, p[2] * gain_};
+    if (maps) {
+      const auto bound = [](float x) { return std::clamp(x, -kLargest, kLargest); };
+      shown = applyToneMap({bound(shown.r), bound(shown.g), bound(shown.b)}, toneMap_);
+    }
+    *codes++ = table(clamp01(shown.r));
+    *codes++ = table(clamp01(shown.g));
+    *codes++ = table(clamp01(shown.b));
+    if (withAlpha_) *codes++ = static_cast<std::uint8_t>(std::floor(255.0 * clamp01(p[3]) + 0.5));
+  }
+  return nonFinite;
+}
+
 DisplayPicture displayPicture(const Image& image, const DisplayTransform& display) {
-  constexpr float kLargest = std::numeric_limits<float>::max();
   DisplayPicture result;
   result.width = image.width;
   result.height = image.height;
-  result.channels = display.withAlpha ? 4 : 3;
+  const DisplayRows rows(image, display);
+  result.channels = rows.channels();
   result.codes.resize(image.pixels() * result.channels);
-  const PixelReader read(image, image.picture());
-  const float gain = std::exp2(display.exposureStops);
-  std::uint8_t* out = result.codes.data();
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
-    float p[4];
-    read(i, p);
-    for (int c = 0; c < (display.withAlpha ? 4 : 3); ++c) {
-      if (!std::isfinite(p[c])) ++result.nonFinite;
-      if (std::isnan(p[c])) p[c] = 0;
-    }
-    for (int c = 0; c < 3; ++c) p[c] = std::clamp(p[c] * gain, -kLargest, kLargest);
-    const Rgb shown = applyToneMap({p[0], p[1], p[2]}, display.toneMap);
-    *out++ = srgbCodeFromLinear(shown.r);
-    *out++ = srgbCodeFromLinear(shown.g);
-    *out++ = srgbCodeFromLinear(shown.b);
-    if (display.withAlpha) *out++ = static_cast<std::uint8_t>(std::floor(255.0 * clamp01(p[3]) + 0.5));
-  }
+  const std::size_t rowCodes = std::size_t{image.width} * result.channels;
+  std::atomic<std::size_t> nonFinite{0};
+  forRowRanges(image.height, rowCodes, [&](std::uint32_t first, std::uint32_t end) {
+    std::size_t found = 0;
+    for (std::uint32_t row = first; row < end; ++row) found += rows(row, result.codes.data() + row * rowCodes);
+    nonFinite += found;
+  });
+  result.nonFinite = nonFinite;
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "base/check.h"
@@ -25,6 +26,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #pragma GCC diagnostic pop
 
 namespace crosslight::codec {
@@ -228,6 +230,16 @@ void limitHeaders() {
       once, [] { Imf::Header::setMaxImageSize(static_cast<int>(kMaxImageSide), static_cast<int>(kMaxImageSide)); });
 }
 
+// Blocks of rows are packed in the library's threads; the file is the same whatever their number.
+int packingThreads(const Image& image) {
+  constexpr std::size_t kWorthThreads = std::size_t{1} << 16;  // pixels; below, starting threads costs more
+  if (image.pixels() < kWorthThreads) return 0;
+  static const int count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  static std::once_flag once;
+  std::call_once(once, [] { Imf::setGlobalThreadCount(count); });
+  return count;
+}
+
 }  // namespace
 
 Bytes encodeExr(const Image& image, float gain, const std::string& where) {
@@ -247,7 +259,7 @@ Bytes encodeExr(const Image& image, float gain, const std::string& where) {
   }
   MemoryOutput output(where);
   try {
-    Imf::OutputFile file(output, header);
+    Imf::OutputFile file(output, header, packingThreads(image));
     file.setFrameBuffer(frame);
     file.writePixels(static_cast<int>(image.height));
   } catch (const std::exception& error) {
@@ -260,7 +272,7 @@ Image decodeExr(View bytes, const std::string& where) {
   limitHeaders();
   MemoryInput input(bytes, where);
   try {
-    Imf::MultiPartInputFile file(input);
+    Imf::MultiPartInputFile file(input, 0);
     Image image;
     for (int part = 0; part < file.parts(); ++part) readPart(file, part, bytes.size(), where, image);
     readMetadata(file.header(0), image);

@@ -51,7 +51,8 @@ Layer& addIntegerLayer(Image& image, const std::string& name, const std::vector<
   return layer;
 }
 
-PixelReader::PixelReader(const Image& image, const Layer& layer) : layer_(layer) {
+PixelReader::PixelReader(const Image& image, const Layer& layer)
+    : samples_(layer.samples.data()), channels_(layer.channels()) {
   CL_CHECK(!layer.isInteger);
   CL_CHECK_EQ(layer.samples.size(), image.pixels() * layer.channels());
   const std::size_t none = layer.channels();
@@ -65,12 +66,6 @@ PixelReader::PixelReader(const Image& image, const Layer& layer) : layer_(layer)
       index_[i] = colors == 1 && i > 0 ? index_[0] : std::min(next++, none);
     }
   }
-}
-
-void PixelReader::operator()(std::size_t pixel, float (&rgba)[4]) const {
-  const std::size_t channels = layer_.channels();
-  const float* const first = layer_.samples.data() + pixel * channels;
-  for (int i = 0; i < 4; ++i) rgba[i] = index_[i] < channels ? first[index_[i]] : (i == 3 ? 1.0f : 0.0f);
 }
 
 }  // namespace crosslight

@@ -49,11 +49,15 @@ Layer& addIntegerLayer(Image& image, const std::string& name, const std::vector<
 // 1 without an A channel. Float layers only.
 struct PixelReader {
   PixelReader(const Image& image, const Layer& layer);
-  void operator()(std::size_t pixel, float (&rgba)[4]) const;
+  void operator()(std::size_t pixel, float (&rgba)[4]) const {
+    const float* const first = samples_ + pixel * channels_;
+    for (int i = 0; i < 4; ++i) rgba[i] = index_[i] < channels_ ? first[index_[i]] : (i == 3 ? 1.0f : 0.0f);
+  }
 
  private:
-  const Layer& layer_;
-  std::size_t index_[4];  // channel of r, g, b, a; channels(): none
+  const float* samples_;
+  std::size_t channels_;
+  std::size_t index_[4];  // channel of r, g, b, a; channels_: none
 };
 
 }  // namespace crosslight

@@ -25,11 +25,16 @@ void putBigEndian(Bytes& bytes, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift));
 }
 
-void putChunk(Bytes& bytes, const std::string& type, const std::string& data) {
+void putChunk(Bytes& bytes, const std::string& type, View data) {
   putBigEndian(bytes, static_cast<std::uint32_t>(data.size()));
   const std::size_t start = bytes.size();
-  append(bytes, type + data);
+  append(bytes, type);
+  bytes.insert(bytes.end(), data.begin(), data.end());
   putBigEndian(bytes, libdeflate_crc32(0, bytes.data() + start, bytes.size() - start));
+}
+
+void putChunk(Bytes& bytes, const std::string& type, const std::string& data) {
+  putChunk(bytes, type, std::as_bytes(std::span(data)));
 }
 
 bool isAscii(const std::string& text) {
@@ -103,12 +108,25 @@ PngInfo checkPng(View file, const std::string& where) {
   return info;
 }
 
-Bytes withPngInfo(View file, const std::map<std::string, std::string>& metadata) {
-  const std::size_t headerEnd = kSignature.size() + kChunkOverhead + kHeaderLength;
-  Bytes bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(headerEnd));
+Bytes pngFile(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+              const std::map<std::string, std::string>& metadata, View zlibStream) {
+  constexpr std::size_t kLongestChunk = std::size_t{1} << 30;  // the format allows 2^31 - 1
+  Bytes bytes;
+  bytes.reserve(zlibStream.size() + zlibStream.size() / kLongestChunk * kChunkOverhead + 4096);
+  for (const unsigned char byte : kSignature) bytes.push_back(static_cast<std::byte>(byte));
+  Bytes header;
+  putBigEndian(header, width);
+  putBigEndian(header, height);
+  // 8 bits, RGB or RGBA; deflate, the standard's filters, not interlaced.
+  append(header, std::string{8, static_cast<char>(channels == 4 ? 6 : 2), 0, 0, 0});
+  CL_CHECK_EQ(header.size(), kHeaderLength);
+  putChunk(bytes, "IHDR", View(header));
   putChunk(bytes, "sRGB", std::string(1, '\1'));  // rendering intent: relative colorimetric
   for (const auto& [key, value] : metadata) putText(bytes, key, value);
-  bytes.insert(bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(headerEnd), file.end());
+  for (std::size_t at = 0; at < zlibStream.size(); at += kLongestChunk) {
+    putChunk(bytes, "IDAT", zlibStream.subspan(at, std::min(kLongestChunk, zlibStream.size() - at)));
+  }
+  putChunk(bytes, "IEND", View());
   return bytes;
 }
 

@@ -1,5 +1,5 @@
-// PNG's chunk structure (ISO/IEC 15948:2003): check a file's before it is decoded, add to a file's after it is encoded.
-// Private to the room.
+// PNG's chunk structure (ISO/IEC 15948:2003): check a file's before it is decoded, make those of a new file. Private to
+// the room.
 #pragma once
 
 #include <map>
@@ -18,7 +18,9 @@ struct PngInfo {
 // Signature, lengths, checksums, and that the compressed data can hold an image of the stated size. InputError if not.
 PngInfo checkPng(View file, const std::string& where);
 
-// Says that the samples are sRGB and adds the metadata as text, in front of the image data.
-Bytes withPngInfo(View file, const std::map<std::string, std::string>& metadata);
+// A whole file: header, that the samples are 8-bit sRGB with 3 or 4 channels, the metadata as text, and the zlib stream
+// of the filtered rows.
+Bytes pngFile(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+              const std::map<std::string, std::string>& metadata, View zlibStream);
 
 }  // namespace crosslight::codec

@@ -1,0 +1,23 @@
+// The display transform row by row, for encoders that need no whole picture of codes. Private to the room.
+#pragma once
+
+#include "image/image_io.h"
+
+namespace crosslight {
+
+class DisplayRows {
+ public:
+  DisplayRows(const Image& image, const DisplayTransform& display);  // the image must outlive it
+  std::uint32_t channels() const { return withAlpha_ ? 4 : 3; }
+  // width * channels() codes of one row; returns how many of its values are not finite.
+  std::size_t operator()(std::uint32_t row, std::uint8_t* codes) const;
+
+ private:
+  PixelReader read_;
+  std::uint32_t width_;
+  float gain_;
+  ToneMap toneMap_;
+  bool withAlpha_;
+};
+
+}  // namespace crosslight
