@@ -34,6 +34,7 @@ struct RenderReport {
   std::uint64_t deviceBytes = 0;                  // peak
   std::string promise;                            // light paths that the method computes, Heckbert's notation
   std::string pixelFilter;                        // in words
+  std::vector<std::string> reused;                // of the session: "scene", "film"
 };
 
 struct RenderResult {
@@ -53,5 +54,6 @@ RenderResult render(gpu::Device& device, const Scene& scene, const RenderSetting
 const char* nameOf(Method method);
 Method methodOf(const std::string& name);
 std::vector<Method> allMethods();
+bool isTraced(Method method);  // by rays, not through graphics pipelines
 
 }  // namespace crosslight

@@ -15,6 +15,9 @@ using namespace shared;
 namespace {
 
 constexpr std::uint32_t kGroupSize = 64;  // local_size_x of the film's kernels
+constexpr std::uint32_t kTileRows = 8;
+// Read back at once: 1 MiB of sums, about half of a core's second-level cache.
+constexpr std::size_t kSlicePixels = std::size_t{1} << 15;
 
 std::vector<gpu::Binding> filmBindings() {
   using enum gpu::BindingType;
@@ -25,15 +28,39 @@ std::vector<gpu::Binding> filmBindings() {
           {kBindCounters, storageBuffer}};
 }
 
-// Rows per band so that no per-pixel buffer exceeds the device's limit for one buffer.
-std::uint32_t rowsPerBand(const gpu::Device& device, const FilmSettings& s) {
-  const std::uint64_t perPixel = s.wantAovs ? sizeof(AovRecord) : sizeof(FilmPixel);
-  const std::uint64_t rows = device.info().maxStorageBufferBytes / (perPixel * s.width);
+// Per pixel of a band, of all buffers together and of the largest one.
+std::uint64_t bytesPerPixel(const FilmSettings& s) {
+  return sizeof(glm::vec4) + sizeof(FilmPixel) + (s.wantAovs ? sizeof(AovRecord) + sizeof(FilmParts) : 0);
+}
+std::uint64_t largestBytesPerPixel(const FilmSettings& s) { return s.wantAovs ? sizeof(AovRecord) : sizeof(FilmPixel); }
+
+std::uint32_t mostRows(const FilmSettings& s) {
+  if (s.rows.empty()) return s.height;
+  std::uint32_t most = 0;
+  for (const Band& rows : s.rows) most = std::max(most, rows.rowCount);
+  return most;
+}
+
+// So that no per-pixel buffer exceeds the device's limit for one buffer, and one dispatch reaches every pixel.
+std::uint32_t rowsPerBand(const gpu::DeviceInfo& device, const FilmSettings& s) {
+  const std::uint64_t bytes = largestBytesPerPixel(s) * s.width;
+  const std::uint64_t rows =
+      std::min(device.maxStorageBufferBytes / bytes, std::uint64_t{device.maxWorkGroupCountX} * kGroupSize / s.width);
   if (rows == 0) {
-    throw DeviceError(fmt::format("an image row of {} pixels needs {} bytes, the device allows {} per buffer", s.width,
-                                  perPixel * s.width, device.info().maxStorageBufferBytes));
+    throw DeviceError(fmt::format(
+        "an image row of {} pixels needs {} bytes and {} workgroups, '{}' allows {} per buffer and {} per "
+        "dispatch",
+        s.width, bytes, s.width / kGroupSize, device.name, device.maxStorageBufferBytes, device.maxWorkGroupCountX));
   }
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, s.height));
+  // Whole tiles of rays, which are kTileRows high, where there is room for one.
+  const std::uint64_t whole = rows < kTileRows ? rows : rows / kTileRows * kTileRows;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(whole, mostRows(s)));
+}
+
+AovRecord emptyAov() {
+  AovRecord nothing{};
+  nothing.instanceId = nothing.primitiveId = nothing.materialId = kNoId;
+  return nothing;
 }
 
 }  // namespace
@@ -49,10 +76,13 @@ void Tally::add(const std::vector<gpu::TimedSpan>& spans) {
   }
 }
 
+std::uint64_t filmBytes(const gpu::DeviceInfo& device, const FilmSettings& settings) {
+  return std::uint64_t{rowsPerBand(device, settings)} * settings.width * bytesPerPixel(settings);
+}
+
 Film::Film(const gpu::Device& device, const FilmSettings& settings)
-    : device_(device),
-      settings_(settings),
-      bandRows_(rowsPerBand(device, settings)),
+    : settings_(settings),
+      bandRows_(rowsPerBand(device.info(), settings)),
       commands_(device),
       layout_(device, filmBindings(), sizeof(FilmPush)),
       set_(device, layout_) {
@@ -64,47 +94,70 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
   buffers_.parts = gpu::Buffer(device, "film parts", aovs * sizeof(FilmParts), gpu::useStorage | gpu::useReadback);
   buffers_.counters =
       gpu::Buffer(device, "counters", kCounterCount * sizeof(std::uint32_t), gpu::useStorage | gpu::useReadback);
+  if (settings.wantAovs) {
+    const std::vector<AovRecord> records(std::min<std::uint64_t>(pixels, kSlicePixels), emptyAov());
+    emptyAovs_ = gpu::Buffer::of(device, "empty AOV records", records, gpu::useStorage);
+  }
   set_.set(kBindSampleColor, buffers_.sampleColor);
   set_.set(kBindAovs, buffers_.aovs);
   set_.set(kBindFilm, buffers_.film);
   set_.set(kBindFilmParts, buffers_.parts);
   set_.set(kBindCounters, buffers_.counters);
   accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"), {});
+  resetCounters();
+}
+
+void Film::resetCounters() {
   const std::vector<std::uint32_t> zeros(kCounterCount, 0u);
   buffers_.counters.write(0, std::as_bytes(std::span(zeros)));
 }
 
-FilmResult Film::expose(Technique& technique, Tally& tally,
+std::size_t Film::exposedPixels() const {
+  std::size_t rows = settings_.rows.empty() ? settings_.height : 0;
+  for (const Band& range : settings_.rows) rows += range.rowCount;
+  return rows * settings_.width;
+}
+
+std::vector<Band> Film::bands() const {
+  std::vector<Band> bands;
+  const std::vector<Band> all{{0, settings_.height}};
+  for (const Band& range : settings_.rows.empty() ? all : settings_.rows) {
+    const std::uint32_t end = range.firstRow + range.rowCount;
+    for (std::uint32_t row = range.firstRow; row < end; row += bandRows_) {
+      bands.push_back({row, std::min(bandRows_, end - row)});
+    }
+  }
+  return bands;
+}
+
+FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sink,
                         const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   FilmResult result;
-  const std::size_t pixels = std::size_t{settings_.width} * settings_.height;
-  result.picture.resize(pixels);
-  if (settings_.wantAovs) result.aovs.resize(pixels);
-  const std::uint64_t bands = (settings_.height + bandRows_ - 1) / bandRows_;
-  const std::uint64_t total = bands * settings_.offsets.size();
+  resetCounters();
+  const std::vector<Band> all = bands();
+  const std::uint64_t total = all.size() * settings_.offsets.size();
   std::uint64_t done = 0;
   const auto step = [&] {
     ++done;
     if (progress) progress(done, total);
     throwIfInterrupted();
   };
-  for (std::uint32_t row = 0; row < settings_.height; row += bandRows_) {
-    exposeBand(technique, {row, std::min(bandRows_, settings_.height - row)}, tally, result, step);
+  std::size_t firstPixel = 0;
+  for (const Band& band : all) {
+    Stopwatch watch;
+    renderBand(technique, band, tally, step);
+    result.renderMs += watch.lapMs();
+    readBand(band, firstPixel, sink);
+    result.readbackMs += watch.lapMs();
+    firstPixel += std::size_t{band.rowCount} * settings_.width;
   }
   readCounters(result);
   return result;
 }
 
-void Film::exposeBand(Technique& technique, const Band& band, Tally& tally, FilmResult& result,
-                      const std::function<void()>& step) {
-  Stopwatch watch;
+// Leaves the sums of the samples in the film, and the AOVs of the pixels' centers in their buffer.
+void Film::renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step) {
   const bool centered = settings_.offsets.size() == 1 && settings_.offsets[0] == glm::vec2(0.5f);
-  std::vector<AovRecord> centers;
-  if (settings_.wantAovs && !centered) {
-    clearAovs(band);
-    technique.renderSample({band, settings_.width, glm::vec2(0.5f), false, true}, tally);
-    centers = buffers_.aovs.readAll<AovRecord>();
-  }
   bool first = true;
   for (const glm::vec2& offset : settings_.offsets) {
     if (settings_.wantAovs) clearAovs(band);
@@ -113,18 +166,20 @@ void Film::exposeBand(Technique& technique, const Band& band, Tally& tally, Film
     first = false;
     step();
   }
-  result.renderMs += watch.lapMs();
-  if (settings_.wantAovs && centered) centers = buffers_.aovs.readAll<AovRecord>();
-  readBand(band, centers, result);
-  result.readbackMs += watch.lapMs();
+  if (!settings_.wantAovs || centered) return;
+  clearAovs(band);
+  technique.renderSample({band, settings_.width, glm::vec2(0.5f), false, true}, tally);
 }
 
 // "Nothing was hit": all zero but the ids.
 void Film::clearAovs(const Band& band) {
-  AovRecord nothing{};
-  nothing.instanceId = nothing.primitiveId = nothing.materialId = kNoId;
-  const std::vector<AovRecord> records(std::size_t{band.rowCount} * settings_.width, nothing);
-  buffers_.aovs.write(0, std::as_bytes(std::span(records)));
+  const std::uint64_t bytes = std::uint64_t{band.rowCount} * settings_.width * sizeof(AovRecord);
+  commands_.begin();
+  for (std::uint64_t at = 0; at < bytes; at += emptyAovs_.sizeBytes()) {
+    commands_.copy(emptyAovs_, 0, buffers_.aovs, at, std::min(emptyAovs_.sizeBytes(), bytes - at));
+  }
+  commands_.barrier();
+  commands_.submitAndWait();
 }
 
 void Film::accumulate(const Band& band, bool first, Tally& tally) {
@@ -145,30 +200,46 @@ void Film::accumulate(const Band& band, bool first, Tally& tally) {
   tally.add(commands_.spans());
 }
 
-void Film::readBand(const Band& band, const std::vector<AovRecord>& centers, FilmResult& result) {
-  const std::size_t first = std::size_t{band.firstRow} * settings_.width;
+// In slices that stay in the cache between being read, divided and handed over.
+void Film::readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink) {
   const std::size_t count = std::size_t{band.rowCount} * settings_.width;
+  std::vector<glm::vec4> picture(std::min(count, kSlicePixels));
+  std::vector<AovRecord> aovs(settings_.wantAovs ? picture.size() : 0);
+  for (std::size_t first = 0; first < count; first += kSlicePixels) {
+    const std::size_t length = std::min(kSlicePixels, count - first);
+    ExposedPixels pixels{firstPixel + first, std::span(picture).first(length)};
+    readPicture(first, std::span(picture).first(length));
+    if (settings_.wantAovs) {
+      readAovs(first, std::span(aovs).first(length));
+      pixels.aovs = std::span(aovs).first(length);
+    }
+    sink(pixels);
+  }
+}
+
+void Film::readPicture(std::size_t first, std::span<glm::vec4> picture) {
   const auto samples = static_cast<double>(settings_.offsets.size());
-  std::vector<FilmPixel> pixels(count);
-  buffers_.film.read(0, std::as_writable_bytes(std::span(pixels)));
-  for (std::size_t i = 0; i < count; ++i) {
+  pixels_.resize(picture.size());
+  buffers_.film.read(first * sizeof(FilmPixel), std::as_writable_bytes(std::span(pixels_)));
+  for (std::size_t i = 0; i < picture.size(); ++i) {
     for (int c = 0; c < 4; ++c) {
-      const double sum = static_cast<double>(pixels[i].sum[c]) - static_cast<double>(pixels[i].compensation[c]);
-      result.picture[first + i][c] = static_cast<float>(sum / samples);
+      const double sum = static_cast<double>(pixels_[i].sum[c]) - static_cast<double>(pixels_[i].compensation[c]);
+      picture[i][c] = static_cast<float>(sum / samples);
     }
   }
-  if (!settings_.wantAovs) return;
-  std::vector<FilmParts> parts(count);
-  buffers_.parts.read(0, std::as_writable_bytes(std::span(parts)));
-  const auto scale = static_cast<float>(1.0 / samples);
-  for (std::size_t i = 0; i < count; ++i) {
-    AovRecord aov = centers[i];
-    aov.albedo = parts[i].albedo * scale;
-    aov.ambient = parts[i].ambient * scale;
-    aov.diffuse = parts[i].diffuse * scale;
-    aov.specular = parts[i].specular * scale;
-    aov.emission = parts[i].emission * scale;
-    result.aovs[first + i] = aov;
+}
+
+void Film::readAovs(std::size_t first, std::span<AovRecord> aovs) {
+  buffers_.aovs.read(first * sizeof(AovRecord), std::as_writable_bytes(aovs));
+  parts_.resize(aovs.size());
+  buffers_.parts.read(first * sizeof(FilmParts), std::as_writable_bytes(std::span(parts_)));
+  const auto scale = static_cast<float>(1.0 / static_cast<double>(settings_.offsets.size()));
+  for (std::size_t i = 0; i < aovs.size(); ++i) {
+    aovs[i].albedo = parts_[i].albedo * scale;
+    aovs[i].ambient = parts_[i].ambient * scale;
+    aovs[i].diffuse = parts_[i].diffuse * scale;
+    aovs[i].specular = parts_[i].specular * scale;
+    aovs[i].emission = parts_[i].emission * scale;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,11 +61,18 @@ struct FilmSettings {
   std::uint32_t width = 0, height = 0;
   std::vector<glm::vec2> offsets;  // of the samples within the pixel
   bool wantAovs = false;
+  std::vector<Band> rows = {};  // those that are exposed, ascending; empty: all
 };
 
+// Finished pixels in a row. The pixels of the exposed rows count from 0 on, in their order, whatever lies between.
+struct ExposedPixels {
+  std::size_t first = 0;
+  std::span<const glm::vec4> picture;            // premultiplied mean of the samples
+  std::span<const shared::AovRecord> aovs = {};  // at pixel centers; averaged parts replaced by their means
+};
+using PixelSink = std::function<void(const ExposedPixels&)>;
+
 struct FilmResult {
-  std::vector<glm::vec4> picture;       // premultiplied mean of the samples
-  std::vector<shared::AovRecord> aovs;  // at pixel centers; averaged parts replaced by their means
   std::uint64_t nonfinite = 0;
   std::uint32_t firstNonfinitePixel = 0;  // when nonfinite > 0
   double renderMs = 0, readbackMs = 0;
@@ -74,27 +82,37 @@ class Film {
  public:
   Film(const gpu::Device& device, const FilmSettings& settings);
   FilmBuffers& buffers() { return buffers_; }
-  // Loops over bands and samples; `progress` is called after each with (done, total). Ctrl-C is looked for here.
-  FilmResult expose(Technique& technique, Tally& tally,
-                    const std::function<void(std::uint64_t, std::uint64_t)>& progress);
+  // Loops over bands and samples; each finished pixel goes to `sink` once, in order. `progress` is called after each
+  // sample of a band with (done, total). Ctrl-C is looked for here. May be called again, for another picture.
+  FilmResult expose(Technique& technique, Tally& tally, const PixelSink& sink,
+                    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+  std::size_t exposedPixels() const;
 
  private:
-  void exposeBand(Technique& technique, const Band& band, Tally& tally, FilmResult& result,
-                  const std::function<void()>& step);
+  std::vector<Band> bands() const;
+  void resetCounters();
+  void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step);
   void clearAovs(const Band& band);
   void accumulate(const Band& band, bool first, Tally& tally);
-  void readBand(const Band& band, const std::vector<shared::AovRecord>& centers, FilmResult& result);
+  void readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink);
+  void readPicture(std::size_t first, std::span<glm::vec4> picture);
+  void readAovs(std::size_t first, std::span<shared::AovRecord> aovs);
   void readCounters(FilmResult& result);
 
-  const gpu::Device& device_;
   FilmSettings settings_;
   std::uint32_t bandRows_ = 0;
   FilmBuffers buffers_;
+  gpu::Buffer emptyAovs_;  // "nothing was hit", a few records; only when AOVs are wanted
   gpu::Commands commands_;
   gpu::BindingLayout layout_;
   gpu::BindingSet set_;
   gpu::ComputePipeline accumulate_;
+  std::vector<shared::FilmPixel> pixels_;  // host copies of a slice, kept because fresh memory costs page faults
+  std::vector<shared::FilmParts> parts_;
 };
+
+// Device memory of a film, for estimates before there is one.
+std::uint64_t filmBytes(const gpu::DeviceInfo& device, const FilmSettings& settings);
 
 // Sub-pixel positions of `count` samples under a filter, the same for every pixel and every technique: for one sample
 // the pixel's center; else a (0,2)-sequence (Sobol 1967), moved by the seed, warped to the filter's density.

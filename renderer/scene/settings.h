@@ -33,6 +33,8 @@ struct RenderSettings {
   bool allEffects = false;         // compile and run everything instead of what the scene calls for
   bool allowNonfinite = false;     // NaN and Inf in the result are reported but do not fail the run
   std::vector<std::string> aovs;   // names of kAovNames
+
+  bool operator==(const RenderSettings&) const = default;
 };
 
 // AOVs that raster and rays both deliver, in this order in every file. Point samples at the pixel's center but for

@@ -1,0 +1,29 @@
+// From the film's pixels to the layers of an image: the picture, and the AOVs that were asked for.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "image/image.h"
+
+namespace crosslight {
+
+class PictureLayers {
+ public:
+  // `origin`: world position of render space's zero.
+  PictureLayers(std::uint32_t width, std::uint32_t rows, const std::vector<std::string>& aovs,
+                const glm::dvec3& origin);
+  void add(const ExposedPixels& pixels);
+  Image take() { return std::move(image_); }
+
+ private:
+  Image image_;
+  glm::dvec3 origin_;
+};
+
+// Bytes per pixel of an image with these layers.
+std::uint64_t layerBytesPerPixel(const std::vector<std::string>& aovs);
+
+}  // namespace crosslight

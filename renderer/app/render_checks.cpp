@@ -1,0 +1,162 @@
+#include "app/render_checks.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "app/picture_layers.h"
+#include "base/check.h"
+#include "base/error.h"
+
+namespace crosslight {
+
+void checkAgainstDevice(const gpu::DeviceInfo& info, const RenderSettings& s) {
+  const std::uint32_t size = std::max(s.width, s.height);
+  if (!isTraced(s.method) && size > info.maxImageSize) {
+    throw DeviceError(fmt::format("{}x{} pixels: '{}' draws images of up to {} pixels a side", s.width, s.height,
+                                  info.name, info.maxImageSize));
+  }
+  if (isTraced(s.method) && s.msaa > 1) {
+    throw UsageError("MSAA belongs to the raster methods: use --spp with whitted");
+  }
+  const auto& counts = info.msaaCounts;
+  if (std::find(counts.begin(), counts.end(), s.msaa) != counts.end() || isTraced(s.method)) return;
+  throw DeviceError(
+      fmt::format("MSAA {}: '{}' supports {}; use one of these, or --spp", s.msaa, info.name, fmt::join(counts, ", ")));
+}
+
+void checkSettings(const Scene& scene, const RenderSettings& s) {
+  CL_CHECK_LT(static_cast<std::size_t>(s.camera), scene.cameras.size());
+  CL_CHECK(s.width > 0 && s.height > 0 && s.spp > 0);
+  for (const std::string& name : s.aovs) {
+    const bool known =
+        std::any_of(std::begin(kAovNames), std::end(kAovNames), [&](const char* n) { return name == n; });
+    if (!known) throw UsageError(fmt::format("no AOV '{}'; there are: {}", name, fmt::join(kAovNames, ", ")));
+  }
+}
+
+namespace {
+
+constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t rowsOf(const RenderRequest& request) {
+  if (request.rows.empty()) return request.settings.height;
+  std::uint64_t rows = 0;
+  for (const Band& band : request.rows) rows += band.rowCount;
+  return rows;
+}
+
+// Color, depth, resolved color and the depth of the AOVs; the raster methods draw into targets of the whole picture.
+std::uint64_t targetBytesPerPixel(const RenderSettings& s) {
+  constexpr std::uint64_t kColor = 16, kDepth = 4;
+  return s.msaa * (kColor + kDepth) + (s.msaa > 1 ? kColor : 0) + (s.aovs.empty() ? 0 : kDepth);
+}
+
+// The number after `key` in a file like /proc/meminfo, or the file's first number without a key.
+std::optional<std::uint64_t> numberIn(const char* file, const std::string& key) {
+  std::ifstream in(file);
+  std::string word;
+  while (in >> word) {
+    if (!key.empty() && word != key) continue;
+    if (!key.empty() && !(in >> word)) return std::nullopt;
+    if (word.find_first_not_of("0123456789") != std::string::npos || word.size() > 19) return std::nullopt;
+    return std::stoull(word);
+  }
+  return std::nullopt;
+}
+
+// What the process's control group leaves it; containers see the machine's figures in /proc/meminfo.
+std::uint64_t leftInGroup() {
+  const std::pair<const char*, const char*> files[] = {
+      {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"},
+      {"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"}};
+  for (const auto& [limitFile, usedFile] : files) {
+    const auto limit = numberIn(limitFile, ""), used = numberIn(usedFile, "");
+    if (limit && used) return *limit > *used ? *limit - *used : 0;
+  }
+  return kUnknown;
+}
+
+}  // namespace
+
+std::uint64_t availableHostBytes() {
+  const auto availableKiB = numberIn("/proc/meminfo", "MemAvailable:");
+  return std::min(availableKiB ? *availableKiB * 1024 : kUnknown, leftInGroup());
+}
+
+MemoryLimits memoryLimitsOf(const gpu::DeviceInfo& info) {
+  return {availableHostBytes(), info.deviceLocalBytes, info.isSoftware};
+}
+
+MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request) {
+  const RenderSettings& s = request.settings;
+  const std::uint64_t pixels = rowsOf(request) * s.width;
+  MemoryNeed need;
+  need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
+  need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
+                            (isTraced(s.method) ? 0 : std::uint64_t{s.width} * s.height * targetBytesPerPixel(s));
+  // A tree has about one node per triangle at the build's leaf sizes, and lists boxes and order while it is built.
+  constexpr std::uint64_t kTreeBytes = 2 * sizeof(shared::BvhNode) + sizeof(shared::BvhPrimitive);
+  constexpr std::uint64_t kBuildBytes = 64;
+  const SceneStats& stats = request.scene->stats;
+  const std::uint64_t flatBytes = stats.vertices * (sizeof(glm::vec3) + sizeof(shared::VertexAttributes)) +
+                                  stats.triangles * 3 * sizeof(std::uint32_t);
+  std::uint64_t texelBytes = 0;
+  for (const TextureImage& image : request.scene->images) texelBytes += image.rgba.size() * sizeof(float);
+  const std::uint64_t treeBytes = isTraced(s.method) ? stats.triangles * kTreeBytes : 0;
+  need.hostSceneBytes = flatBytes + texelBytes + treeBytes + (isTraced(s.method) ? stats.triangles * kBuildBytes : 0);
+  need.deviceSceneBytes = flatBytes + texelBytes + treeBytes;
+  return need;
+}
+
+std::string inGiB(std::uint64_t bytes) { return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1u << 30)); }
+
+namespace {
+
+// The least number of parts that fit; 0 when none does.
+std::uint64_t partsThatFit(std::uint64_t fixedBytes, std::uint64_t sharedOutBytes, std::uint64_t limitBytes,
+                           std::uint32_t height) {
+  if (fixedBytes >= limitBytes) return 0;
+  const std::uint64_t left = limitBytes - fixedBytes;
+  const std::uint64_t parts = (sharedOutBytes + left - 1) / left;
+  return parts <= height ? parts : 0;
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& figures, std::uint64_t parts,
+                         const RenderSettings& s) {
+  std::string remedies =
+      parts > 1 ? fmt::format("draw it in parts (--part 1/{}, ..., then 'crosslight merge'), ", parts) : "";
+  remedies += "lower --resolution";
+  if (!s.aovs.empty()) remedies += ", ask for fewer --aov";
+  if (s.msaa > 1) remedies += ", lower --msaa";
+  throw DeviceError(
+      fmt::format("{}x{} pixels need more {} than there is: {}; {}", s.width, s.height, what, figures, remedies));
+}
+
+}  // namespace
+
+void checkMemory(const MemoryNeed& need, const MemoryLimits& limits, const RenderSettings& s) {
+  const std::uint64_t device = need.devicePictureBytes + need.deviceSceneBytes;
+  const std::uint64_t host = need.hostPictureBytes + need.hostSceneBytes;
+  const std::uint64_t onHost = host + (limits.shared ? device : 0);
+  if (onHost > limits.hostBytes) {
+    const std::string figures = fmt::format(
+        "image {}, flattened scene {}{}, together {} of the {} that are available", inGiB(need.hostPictureBytes),
+        inGiB(need.hostSceneBytes), limits.shared ? fmt::format(", and on the software device {}", inGiB(device)) : "",
+        inGiB(onHost), inGiB(limits.hostBytes));
+    refuse("memory", figures,
+           partsThatFit(onHost - need.hostPictureBytes, need.hostPictureBytes, limits.hostBytes, s.height), s);
+  }
+  if (!limits.shared && device > limits.deviceBytes) {
+    const std::string figures =
+        fmt::format("film and targets {}, scene {}, together {} of the {} that it has", inGiB(need.devicePictureBytes),
+                    inGiB(need.deviceSceneBytes), inGiB(device), inGiB(limits.deviceBytes));
+    refuse("device memory", figures, 0, s);
+  }
+}
+
+}  // namespace crosslight

@@ -1,0 +1,242 @@
+#include "app/render_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <list>
+
+#include "app/picture_layers.h"
+#include "app/render_checks.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/time.h"
+#include "effects/effects.h"
+#include "effects/material_traits.h"
+#include "raster/raster.h"
+#include "trace/whitted.h"
+#include "upload/gpu_scene.h"
+
+namespace crosslight {
+namespace {
+
+FilterShape shapeOf(PixelFilter filter) {
+  switch (filter) {
+    case PixelFilter::box:
+      return FilterShape::box;
+    case PixelFilter::tent:
+      return FilterShape::tent;
+    case PixelFilter::gaussian:
+      return FilterShape::gaussian;
+  }
+  return FilterShape::box;
+}
+
+std::string describeFilter(const RenderSettings& s) {
+  if (s.spp <= 1) return "one sample at the pixel's center";
+  const char* filter = s.filter == PixelFilter::box    ? "box of one pixel"
+                       : s.filter == PixelFilter::tent ? "tent of radius 1 pixel"
+                                                       : "Gaussian of deviation 1/2 pixel, cut at 3/2";
+  return fmt::format("{}, {} samples of a (0,2)-sequence, the same in every pixel", filter, s.spp);
+}
+
+void checkFinite(const FilmResult& film, const RenderSettings& s) {
+  if (film.nonfinite == 0) return;
+  const std::string text = fmt::format("{} samples are NaN or infinite, the first at pixel ({}, {})", film.nonfinite,
+                                       film.firstNonfinitePixel % s.width, film.firstNonfinitePixel / s.width);
+  if (!s.allowNonfinite) throw InternalError(text + "; --allow-nonfinite writes the image all the same");
+  logWarning(text);
+}
+
+std::vector<EffectRecord> recordsOf(const Plan& plan) {
+  std::vector<EffectRecord> records;
+  for (const EffectVerdict& v : plan.verdicts) records.push_back({v.name, v.on, v.reason});
+  return records;
+}
+
+// What a raster method cannot show of this scene, said once per material.
+void warnOfApproximations(const Scene& scene, const Plan& plan, const RenderSettings& s) {
+  if (isTraced(s.method) || !plan.has(Effect::transparency)) return;
+  for (const Material& m : scene.materials) {
+    if (refracts(m)) {
+      logWarning(
+          fmt::format("material '{}' refracts: {} shows what is behind it unbent and without reflections; "
+                      "whitted traces both",
+                      m.name, nameOf(s.method)));
+    }
+  }
+}
+
+// Scenes on the device that are kept: a scene from a few cameras, or a few scenes in turn.
+constexpr std::size_t kScenesKept = 4;
+
+// A flattened scene on the device. Its settings are the render's that uses it: GpuScene looks at them for each sample.
+struct PlacedScene {
+  std::shared_ptr<const Scene> scene;
+  RenderSettings settings, madeFor;
+  glm::dvec3 origin{0.0};
+  std::map<std::string, std::uint64_t> counters;
+  std::unique_ptr<GpuScene> onDevice;
+};
+
+// What a scene on the device depends on: not on what belongs to the film, nor on which camera stands at the origin.
+RenderSettings withoutFilm(RenderSettings s) {
+  s.width = s.height = 0;
+  s.camera = 0;
+  s.spp = 1;
+  s.filter = PixelFilter::box;
+  s.seed = 0;
+  s.allowNonfinite = false;
+  s.aovs.clear();
+  return s;
+}
+
+struct PlacedFilm {
+  FilmSettings settings;
+  std::unique_ptr<Film> film;
+};
+
+bool same(const std::vector<Band>& a, const std::vector<Band>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Band& p, const Band& q) { return p.firstRow == q.firstRow && p.rowCount == q.rowCount; });
+}
+
+bool same(const FilmSettings& a, const FilmSettings& b) {
+  return a.width == b.width && a.height == b.height && a.offsets == b.offsets && a.wantAovs == b.wantAovs &&
+         same(a.rows, b.rows);
+}
+
+class Phases {
+ public:
+  explicit Phases(RenderReport& report) : report_(report) {}
+  void lap(const char* phase) { report_.timesMs.emplace_back(phase, watch_.lapMs()); }
+  double sinceLapMs() { return watch_.lapMs(); }
+
+ private:
+  RenderReport& report_;
+  Stopwatch watch_;
+};
+
+}  // namespace
+
+struct RenderSession::Impl {
+  explicit Impl(gpu::Device& d) : device(d) {}
+
+  PlacedScene& place(const RenderRequest& request, RenderReport& report, Phases& phases);
+  void make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases);
+  Film& filmFor(const FilmSettings& settings, RenderReport& report);
+
+  gpu::Device& device;
+  std::list<PlacedScene> scenes;  // the latest first
+  PlacedFilm film;
+};
+
+void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases) {
+  const RenderSettings& settings = request.settings;
+  const Scene& scene = *request.scene;
+  const bool traced = isTraced(settings.method);
+  FlatScene flat = flattenScene(scene, origin, traced);
+  phases.lap("flatten");
+  FlatBvh bvh;
+  if (traced) bvh = buildFlatBvh(flat, scene, settings);
+  phases.lap("bvh");
+  PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, nullptr};
+  placed.counters = {
+      {"triangles", flat.triangleCount()},
+      {"shapes", flat.shapes.size()},
+      {"bvhNodes", bvh.nodes.size()},
+      {"bvhBytes", bvh.nodes.size() * sizeof(shared::BvhNode) + bvh.primitives.size() * sizeof(shared::BvhPrimitive)}};
+  scenes.push_front(std::move(placed));
+  PlacedScene& kept = scenes.front();
+  try {
+    kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), traced ? &bvh : nullptr);
+  } catch (...) {
+    scenes.pop_front();
+    throw;
+  }
+}
+
+PlacedScene& RenderSession::Impl::place(const RenderRequest& request, RenderReport& report, Phases& phases) {
+  const RenderSettings key = withoutFilm(request.settings);
+  const glm::dvec3 origin = renderOrigin(request.scene->cameras[static_cast<std::size_t>(request.settings.camera)]);
+  const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PlacedScene& p) {
+    return p.scene.get() == request.scene.get() && p.origin == origin && p.madeFor == key;
+  });
+  if (found != scenes.end()) {
+    scenes.splice(scenes.begin(), scenes, found);
+    report.reused.push_back("scene");
+    phases.lap("flatten");
+    phases.lap("bvh");
+  } else {
+    while (scenes.size() >= kScenesKept) scenes.pop_back();
+    make(request, origin, phases);
+  }
+  scenes.front().settings = request.settings;
+  return scenes.front();
+}
+
+Film& RenderSession::Impl::filmFor(const FilmSettings& settings, RenderReport& report) {
+  if (film.film != nullptr && same(film.settings, settings)) {
+    report.reused.push_back("film");
+    return *film.film;
+  }
+  film.film = nullptr;  // before the next one needs the memory
+  film.film = std::make_unique<Film>(device, settings);
+  film.settings = settings;
+  return *film.film;
+}
+
+RenderSession::RenderSession(gpu::Device& device) : impl_(std::make_unique<Impl>(device)) {}
+RenderSession::~RenderSession() = default;
+
+void RenderSession::forget(const Scene& scene) {
+  impl_->scenes.remove_if([&](const PlacedScene& p) { return p.scene.get() == &scene; });
+}
+
+RenderResult RenderSession::render(const RenderRequest& request, const ProgressFunction& progress) {
+  const Scene& scene = *request.scene;
+  const RenderSettings& settings = request.settings;
+  checkSettings(scene, settings);
+  checkAgainstDevice(impl_->device.info(), settings);
+  checkMemory(memoryNeedOf(impl_->device.info(), request), memoryLimitsOf(impl_->device.info()), settings);
+  RenderResult result;
+  RenderReport& report = result.report;
+  Phases phases(report);
+
+  const Plan plan = makePlan(scene, settings);
+  warnOfApproximations(scene, plan, settings);
+  PlacedScene& placed = impl_->place(request, report, phases);
+  report.counters = placed.counters;
+  Film& film = impl_->filmFor(
+      {settings.width, settings.height, samplePattern(settings.spp, shapeOf(settings.filter), settings.seed),
+       !settings.aovs.empty(), request.rows},
+      report);
+  phases.lap("upload");
+  const auto makeTechnique = isTraced(settings.method) ? makeWhitted : makeRaster;
+  const std::unique_ptr<Technique> technique =
+      makeTechnique(impl_->device, *placed.onDevice, plan, placed.settings, film.buffers());
+  phases.lap("pipelines");
+  Tally tally;
+  const auto rows = static_cast<std::uint32_t>(film.exposedPixels() / settings.width);
+  PictureLayers layers(settings.width, rows, settings.aovs, placed.origin);
+  const double layersMs = phases.sinceLapMs();
+  const FilmResult exposed = film.expose(
+      *technique, tally, [&layers](const ExposedPixels& pixels) { layers.add(pixels); }, progress);
+  report.timesMs.emplace_back("render", exposed.renderMs);
+  report.timesMs.emplace_back("readback", layersMs + exposed.readbackMs);
+  checkFinite(exposed, settings);
+  result.image = layers.take();
+
+  report.gpuMs = tally.spansMs();
+  report.effects = recordsOf(plan);
+  report.rays = technique->rays();
+  for (const auto& [name, count] : technique->counters()) report.counters[name] = count;
+  report.counters["pixels"] = film.exposedPixels();
+  report.counters["samples"] = report.counters["pixels"] * settings.spp;
+  report.nonfinite = exposed.nonfinite;
+  report.deviceBytes = impl_->device.peakAllocatedBytes();
+  report.promise = technique->promise();
+  report.pixelFilter = describeFilter(settings);
+  return result;
+}
+
+}  // namespace crosslight

@@ -1,0 +1,37 @@
+// Renders of one process, one after the other, on one device: what two of them share is made once. Each image has the
+// same bits as if it were the only one.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/render_job.h"
+#include "film/film.h"
+
+namespace crosslight {
+
+struct RenderRequest {
+  std::shared_ptr<const Scene> scene;
+  RenderSettings settings;
+  std::vector<Band> rows = {};          // the image holds these rows only; empty: all
+  std::uint64_t fileBytesPerPixel = 0;  // of the image's file while it is made, for the estimate of memory
+};
+
+class RenderSession {
+ public:
+  explicit RenderSession(gpu::Device& device);  // must outlive the session
+  RenderSession(const RenderSession&) = delete;
+  RenderSession& operator=(const RenderSession&) = delete;
+  ~RenderSession();
+
+  // As render() of render_job.h.
+  RenderResult render(const RenderRequest& request, const ProgressFunction& progress = {});
+  // Lets go of what was made for a scene.
+  void forget(const Scene& scene);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace crosslight
