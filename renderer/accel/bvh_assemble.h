@@ -1,0 +1,13 @@
+// From the parts that builders leave to the finished tree, with its statistics. Private to the room.
+#pragma once
+
+#include "accel/bvh_builder.h"
+
+namespace crosslight::accel {
+
+void assemble(const Parts& parts, Team& team, Bvh& bvh);
+
+// Of 0 primitives or 1.
+void assembleTiny(const Work& root, Bvh& bvh);
+
+}  // namespace crosslight::accel
