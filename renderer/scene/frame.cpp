@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "base/error.h"
 #include "scene/load.h"
@@ -49,6 +50,23 @@ Camera frameBounds(const DBounds& bounds) {
   // Half way to the nearest point of the sphere; without a far plane nothing behind it is cut.
   camera.zNear = (distance - radius) * 0.5;
   return camera;
+}
+
+void orbit(Scene& scene, int camera, double degrees) {
+  if (degrees == 0.0) return;
+  const glm::dvec3 center =
+      scene.worldBounds.empty() ? glm::dvec3(0.0) : (scene.worldBounds.lower + scene.worldBounds.upper) * 0.5;
+  const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+  const auto turned = [c, s](const glm::dvec3& v) { return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
+  glm::dmat4& worldFromCamera = scene.cameras.at(static_cast<std::size_t>(camera)).worldFromCamera;
+  for (int axis = 0; axis < 3; ++axis) {
+    worldFromCamera[axis] = glm::dvec4(turned(glm::dvec3(worldFromCamera[axis])), 0.0);
+  }
+  worldFromCamera[3] = glm::dvec4(center + turned(glm::dvec3(worldFromCamera[3]) - center), 1.0);
+  if (!scene.defaultLight || camera != 0) return;
+  Light& light = scene.lights.front();
+  light.worldDirection = turned(light.worldDirection);
+  light.worldPosition = center + turned(light.worldPosition - center);
 }
 
 }  // namespace crosslight

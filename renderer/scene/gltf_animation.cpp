@@ -161,9 +161,10 @@ std::vector<NodePose> restPose(const Source& source) {
   return poses;
 }
 
-void animate(const Source& source, double timeSeconds, std::vector<NodePose>& poses) {
+void animate(const Source& source, int only, double timeSeconds, std::vector<NodePose>& poses) {
   std::set<std::pair<int, std::string>> driven;
   for (std::size_t a = 0; a < source.model.animations.size(); ++a) {
+    if (only >= 0 && a != static_cast<std::size_t>(only)) continue;
     const tinygltf::Animation& animation = source.model.animations[a];
     const JsonAt at = source.document.entry("animations", a);
     for (std::size_t c = 0; c < animation.channels.size(); ++c) {

@@ -50,7 +50,8 @@ struct NodePose {
   glm::dmat4 parentFromNode() const;
 };
 std::vector<NodePose> restPose(const Source& source);
-void animate(const Source& source, double timeSeconds, std::vector<NodePose>& poses);
+// `only`: index of an animation; -1: all.
+void animate(const Source& source, int only, double timeSeconds, std::vector<NodePose>& poses);
 
 // gltf_nodes.cpp
 struct Hierarchy {

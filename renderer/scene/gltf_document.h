@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "scene/gltf_json.h"
 #include "scene/load.h"
 
@@ -62,6 +63,8 @@ struct Document {
   std::vector<Bytes> buffers;  // by buffer index, each as long as its byteLength; empty for meshopt's fallbacks
   std::vector<Bytes> images;   // still encoded
   std::uint64_t fileBytes = 0;
+  bool hashContents = false;
+  std::uint64_t contentHash = kHashSeed;  // of the file and of what it refers to, in the order of reading
   Budget budget;
   Notes notes;
 };

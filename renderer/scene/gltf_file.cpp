@@ -152,7 +152,7 @@ void Notes::log() const {
 }
 
 Document::Document(const fs::path& file, const LoadOptions& options)
-    : fileName(file.string()), budget(memoryLimitBytes(options.maxBytes)) {
+    : fileName(file.string()), hashContents(options.hashContents), budget(memoryLimitBytes(options.maxBytes)) {
   std::error_code error;
   if (!fs::exists(file, error)) throw InputError(fileName, "does not exist");
   // A pipe or device would block or never end.
@@ -162,6 +162,7 @@ Document::Document(const fs::path& file, const LoadOptions& options)
   if (error) throw InputError(fileName, "its folder cannot be resolved: " + error.message());
   const std::vector<std::byte> bytes = readFile(file, budget.leftBytes());
   fileBytes = bytes.size();
+  if (hashContents) contentHash = hashBytes(bytes, contentHash);
   budget.charge(fileBytes, root());
   const std::span<const std::byte> all(bytes);
   if (bytes.size() >= 4 && word(all, 0) == kGlbMagic) {

@@ -19,23 +19,28 @@ namespace {
 
 using namespace gltf;
 
+// Index of the entry with this name or number; UsageError lists what there is.
+template <class Entry>
+int chooseNamed(const std::vector<Entry>& entries, const char* what, const std::string& wanted,
+                const Document& document) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].name == wanted) return static_cast<int>(i);
+  }
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  const bool isNumber = error == std::errc() && end == wanted.data() + wanted.size();
+  if (isNumber && index < entries.size()) return static_cast<int>(index);
+  std::string known;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, entries[i].name);
+  }
+  throw UsageError(
+      fmt::format("there is no {} '{}'; {} has {}", what, wanted, document.fileName, known.empty() ? "none" : known));
+}
+
 // -1: the file has no scenes, all its nodes are drawn.
 int chooseScene(const tinygltf::Model& model, const Document& document, const std::string& wanted) {
-  if (!wanted.empty()) {
-    for (std::size_t i = 0; i < model.scenes.size(); ++i) {
-      if (model.scenes[i].name == wanted) return static_cast<int>(i);
-    }
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    const bool isNumber = error == std::errc() && end == wanted.data() + wanted.size();
-    if (isNumber && index < model.scenes.size()) return static_cast<int>(index);
-    std::string known;
-    for (std::size_t i = 0; i < model.scenes.size(); ++i) {
-      known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, model.scenes[i].name);
-    }
-    throw UsageError(
-        fmt::format("there is no scene '{}'; {} has {}", wanted, document.fileName, known.empty() ? "none" : known));
-  }
+  if (!wanted.empty()) return chooseNamed(model.scenes, "scene", wanted, document);
   if (model.scenes.empty()) {
     logInfo(document.fileName + ": has no scene, all its nodes are drawn");
     return -1;
@@ -141,26 +146,60 @@ void addDefaults(Scene& scene, const Document& document) {
 
 void fillStats(const tinygltf::Model& model, const Document& document, Scene& scene) {
   scene.stats.fileBytes = document.fileBytes;
+  scene.stats.contentHash = document.hashContents ? document.contentHash : 0;
   scene.stats.animations = static_cast<std::uint32_t>(model.animations.size());
   scene.stats.extensionsUsed = model.extensionsUsed;
   for (const tinygltf::Scene& entry : model.scenes) scene.stats.sceneNames.push_back(entry.name);
 }
 
-Scene load(const std::filesystem::path& file, const LoadOptions& options) {
-  Document document(file, options);
+// Runs a step on behalf of a file: whatever a library throws becomes an InputError with the file's name.
+template <class Step>
+auto guarded(const std::filesystem::path& file, const Step& step) {
+  try {
+    return step();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string(), "needs more memory than there is");
+  } catch (const std::length_error&) {
+    throw InputError(file.string(), "needs more memory than there can be");
+  } catch (const std::exception& error) {
+    throw InputError(file.string(), std::string("cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace
+
+struct SceneFile::Impl {
+  Impl(const std::filesystem::path& path, const LoadOptions& loadOptions);
+  Scene pose(Scene scene, double timeSeconds);
+
+  std::filesystem::path file;
+  LoadOptions options;
+  Document document;
+  ModelPointer model;
+  int sceneIndex = -1, animation = -1;
+  Scene still;  // what no pose changes: materials and their images
+};
+
+SceneFile::Impl::Impl(const std::filesystem::path& path, const LoadOptions& loadOptions)
+    : file(path), options(loadOptions), document(path, loadOptions) {
   validateDocument(document);
   loadResources(document);
   decodeMeshopt(document);
   decodeDraco(document);
-  const ModelPointer model = parseModel(document);
-  const Source source{document, *model};
+  model = parseModel(document);
+  still.source = file;
+  sceneIndex = chooseScene(*model, document, options.scene);
+  if (!options.animation.empty()) animation = chooseNamed(model->animations, "animation", options.animation, document);
+  buildMaterials({document, *model}, still);
+}
 
-  Scene scene;
-  scene.source = file;
-  const int sceneIndex = chooseScene(*model, document, options.scene);
-  buildMaterials(source, scene);
+Scene SceneFile::Impl::pose(Scene scene, double timeSeconds) {
+  if (!std::isfinite(timeSeconds)) throw UsageError("the time of an animation must be a finite number of seconds");
+  const Source source{document, *model};
   std::vector<NodePose> poses = restPose(source);
-  if (options.animate) animate(source, options.timeSeconds, poses);
+  if (options.animate) animate(source, animation, timeSeconds, poses);
   buildNodes(source, poses, sceneIndex, scene);
   if (sceneIndex >= 0) {
     const auto index = static_cast<std::size_t>(sceneIndex);
@@ -176,22 +215,24 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   return scene;
 }
 
-}  // namespace
+SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& options)
+    : impl_(guarded(file, [&] { return std::make_unique<Impl>(file, options); })) {}
+SceneFile::SceneFile(SceneFile&&) noexcept = default;
+SceneFile::~SceneFile() = default;
+
+Scene SceneFile::pose(double timeSeconds) const {
+  // The budget bounds one scene: what an earlier pose took is given back with that scene.
+  const Budget before = impl_->document.budget;
+  Scene scene = guarded(impl_->file, [&] { return impl_->pose(impl_->still, timeSeconds); });
+  impl_->document.budget = before;
+  return scene;
+}
 
 Scene loadScene(const std::filesystem::path& file, const LoadOptions& options) {
   if (!std::isfinite(options.timeSeconds))
     throw UsageError("the time of an animation must be a finite number of seconds");
-  try {
-    return load(file, options);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw InputError(file.string(), "needs more memory than there is");
-  } catch (const std::length_error&) {
-    throw InputError(file.string(), "needs more memory than there can be");
-  } catch (const std::exception& error) {
-    throw InputError(file.string(), std::string("cannot be read: ") + error.what());
-  }
+  const SceneFile opened(file, options);
+  return guarded(file, [&] { return opened.impl_->pose(std::move(opened.impl_->still), options.timeSeconds); });
 }
 
 }  // namespace crosslight

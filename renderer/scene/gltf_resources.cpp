@@ -121,6 +121,7 @@ Bytes externalFile(const JsonAt& at, Document& document) {
   document.budget.charge(size, at);
   document.fileBytes += size;
   const std::vector<std::byte> bytes = readFile(path, size);
+  if (document.hashContents) document.contentHash = hashBytes(bytes, document.contentHash);
   const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
   return Bytes(begin, begin + bytes.size());
 }

@@ -188,6 +188,7 @@ struct SceneStats {
   std::uint64_t vertices = 0;
   std::uint32_t nodes = 0;
   std::uint32_t animations = 0;
+  std::uint64_t contentHash = 0;  // of the same bytes as fileBytes, when LoadOptions ask for it
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> sceneNames;  // of all scenes in the file
 };
