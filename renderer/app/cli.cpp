@@ -27,6 +27,7 @@ int runCommandLine(int argc, char** argv) {
     addRenderCommand(line);
     addInfoCommand(line);
     addDevicesCommand(line);
+    addMergeCommand(line);
     addSheetCommand(line);
     addCompletionCommand(line);
     addManCommand(line);

@@ -114,6 +114,18 @@ CLI::Option* CommandLine::declare(CLI::Option* option, const std::string& value,
   return option;
 }
 
+void CommandLine::parse(const std::vector<std::string>& words) {
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  try {
+    app_.parse(static_cast<int>(pointers.size()), pointers.data());
+  } catch (const CLI::CallForVersion&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    explain(error);
+  }
+}
+
 void CommandLine::run(int argc, char** argv) {
   common_.arguments.assign(argv, argv + argc);
   const std::vector<std::string>& words = common_.arguments;
@@ -129,11 +141,9 @@ void CommandLine::run(int argc, char** argv) {
     return printToStdout(helpText(program));
   }
   try {
-    app_.parse(argc, argv);
+    parse(words);
   } catch (const CLI::CallForVersion& version) {
     return printToStdout(std::string(version.what()) + "\n");
-  } catch (const CLI::ParseError& error) {
-    explain(error);
   }
   setLogLevel(common_.quiet ? LogLevel::quiet : common_.verbose ? LogLevel::verbose : LogLevel::normal);
   for (const Entry& entry : entries_) {

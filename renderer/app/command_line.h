@@ -61,6 +61,8 @@ class CommandLine {
   // For options made directly on `command`.
   CLI::Option* declare(CLI::Option* option, const std::string& value, ValueModel values);
 
+  // Only parses; the first word is the program's name. UsageError when the words make no sense.
+  void parse(const std::vector<std::string>& words);
   // Parses and runs. UsageError when the words make no sense; help and version go to stdout.
   void run(int argc, char** argv);
 

@@ -8,6 +8,7 @@ class CommandLine;
 void addRenderCommand(CommandLine& line);
 void addInfoCommand(CommandLine& line);
 void addDevicesCommand(CommandLine& line);
+void addMergeCommand(CommandLine& line);
 void addSheetCommand(CommandLine& line);
 void addCompletionCommand(CommandLine& line);
 void addManCommand(CommandLine& line);

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "app/command_line.h"
+#include "app/frame_plan.h"
+#include "app/part.h"
 #include "app/progress.h"
 #include "app/render_job.h"
 #include "app/set_keys.h"
@@ -19,6 +21,7 @@ namespace {
 constexpr std::uint32_t kMostPixelsPerSide = 65536;  // no device draws more; memory ends long before
 constexpr std::uint32_t kMostSamples = 1u << 20;     // the film counts samples exactly in a float up to 2^24
 constexpr std::uint32_t kMostDepth = 64;             // a ray tree doubles per level: beyond, only mirrors halls differ
+constexpr double kMostDegrees = 360000;              // a thousand turns
 constexpr double kMostStops = 64;                    // 2^64 takes any float radiance that matters to black or white
 
 const std::vector<std::string> kFilters = {"box", "tent", "gaussian"};
@@ -41,6 +44,11 @@ void warnUnheeded(const std::string& what, const RenderOptions& options) {
   logWarning(what + " has no effect on the method " + options.method);
 }
 
+// Whether an option was given, which its value cannot tell.
+void noteGiven(CLI::Option* option, bool& given) {
+  option->each([&given](const std::string&) { given = true; });
+}
+
 void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.choice(command, "-m,--method", o.method, methodNames(), "How the image is made")->group("Picture");
   line.text(command, "-r,--resolution", o.resolution, "WxH", "Size in pixels, 1 to 65536 each")->group("Picture");
@@ -48,10 +56,16 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
       ->group("Picture");
   line.text(command, "--scene", o.sceneName, "NAME|N", "The scene of the file; without it the file's default")
       ->group("Picture");
-  o.time = line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
-                       "Evaluate animations at this time; without it nodes stay in their rest pose")
-               ->default_str("")
-               ->group("Picture");
+  noteGiven(line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
+                        "Evaluate animations at this time; without it nodes stay in their rest pose")
+                ->default_str("")
+                ->group("Picture"),
+            o.timeGiven);
+  line.text(command, "--animation", o.animation, "NAME|N", "Evaluate this animation only; without it all of the file")
+      ->group("Picture");
+  line.number(command, "--turn", o.turnDegrees, "DEGREES", -kMostDegrees, kMostDegrees,
+              "Turn the camera about the vertical through the scene's middle, counter-clockwise from above")
+      ->group("Picture");
   line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
             {ValueKind::keyValue, allSetPairs()})
       ->group("Picture");
@@ -65,11 +79,13 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
              "Samples per pixel, at the same places for raster and rays; 1 is the pixel's center")
       ->group("Sampling");
   line.choice(command, "--filter", o.filter, kFilters, "How samples are weighted into a pixel")->group("Sampling");
-  o.msaaGiven = line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
-                    ->group("Sampling");
-  o.maxDepthGiven = line.whole(command, "--max-depth", o.maxDepth, "N", 0, kMostDepth,
-                               "Ray segments after the primary one (whitted); 0 is direct light only")
-                        ->group("Sampling");
+  noteGiven(line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
+                ->group("Sampling"),
+            o.msaaGiven);
+  noteGiven(line.whole(command, "--max-depth", o.maxDepth, "N", 0, kMostDepth,
+                       "Ray segments after the primary one (whitted); 0 is direct light only")
+                ->group("Sampling"),
+            o.maxDepthGiven);
   line.whole(command, "--seed", o.seed, "N", 0, std::numeric_limits<std::uint64_t>::max(),
              "Seed of all random numbers; the same seed gives the same bits")
       ->group("Sampling");
@@ -92,6 +108,28 @@ void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
       ->group("Output");
 }
 
+void addManyOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.text(command, "--frames", o.frames, "N|A-B",
+            "Draw frames 0 to N-1, or A to B, of the animations; OUT has a run of '#' for the number, or is a video "
+            "(.mp4, .mkv, .webm, .gif; needs ffmpeg)")
+      ->group("Many pictures");
+  line.number(command, "--fps", o.framesPerSecond, "RATE", kSlowest, kFastest, "Frames per second")
+      ->group("Many pictures");
+  line.whole(command, "--turntable", o.turntable, "N", 0, kMostFrames,
+             "Turn the camera once about the scene in N frames, as --turn does; 0 does not")
+      ->group("Many pictures");
+  line.text(command, "--part", o.part, "I/N",
+            "Draw the I-th of N shares of the rows into a .clpart file, for 'crosslight merge'")
+      ->group("Many pictures");
+  line.text(command, "--batch", o.batch, "FILE|-",
+            "Draw every item of a JSON array or of JSON lines: objects with 'scene', 'output' and any option of this "
+            "command by its long name ('scene-name' for --scene); options given here hold for all items",
+            ValueKind::file)
+      ->group("Many pictures");
+  line.flag(command, "--stop-on-error", o.stopOnError, "Leave a batch at its first item that fails")
+      ->group("Many pictures");
+}
+
 }  // namespace
 
 void addDisplayOptions(CommandLine& line, CLI::App& command, double& exposureStops, std::string& toneMap) {
@@ -108,6 +146,7 @@ void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   addOutputOptions(line, command, o);
   addPictureOptions(line, command, o);
   addSamplingOptions(line, command, o);
+  addManyOptions(line, command, o);
   addDeviceOptions(line, command, o.device);
   line.flag(command, "--list-devices", o.listDevices, "List the devices instead of drawing")->group("Device");
   line.choice(command, "--progress", o.progress, progressNames(), "Progress on stderr; a bar on a terminal only")
@@ -137,10 +176,11 @@ RenderSettings checkedSettings(const RenderOptions& o) {
     }
   }
   const bool rays = settings.method == Method::whitted;
-  if (rays && o.msaaGiven != nullptr && o.msaaGiven->count() > 0) warnUnheeded("--msaa", o);
-  if (!rays && o.maxDepthGiven != nullptr && o.maxDepthGiven->count() > 0) warnUnheeded("--max-depth", o);
+  if (rays && o.msaaGiven) warnUnheeded("--msaa", o);
+  if (!rays && o.maxDepthGiven) warnUnheeded("--max-depth", o);
   settings.aovs = aovsOf(o.aovs);
-  if (!settings.aovs.empty() && imageFormatOf(o.output) != ImageFormat::exr) {
+  const bool layered = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
+  if (!settings.aovs.empty() && !layered) {
     throw UsageError("--aov needs an EXR file, the only format with layers: -o " +
                      std::filesystem::path(o.output).replace_extension(".exr").string());
   }
@@ -152,16 +192,18 @@ DisplayTransform checkedDisplay(const RenderOptions& o) {
   display.toneMap = toneMapOf(o.toneMap);
   display.exposureStops = static_cast<float>(o.exposureStops);
   display.withAlpha = o.alpha;
-  const ImageFormat format = imageFormatOf(o.output);
-  if (o.alpha && format != ImageFormat::png) warnUnheeded("--alpha on a file that is no PNG", o);
+  const bool png = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::png);
+  if (o.alpha && !png) warnUnheeded("--alpha on a file that is no PNG", o);
   return display;
 }
 
 LoadOptions loadOptionsOf(const RenderOptions& o) {
   LoadOptions load;
   load.scene = o.sceneName;
-  load.animate = o.time != nullptr && o.time->count() > 0;
+  load.animate = o.timeGiven || !o.animation.empty();
+  load.animation = o.animation;
   load.timeSeconds = o.timeSeconds;
+  load.hashContents = !o.part.empty();
   return load;
 }
 

@@ -22,13 +22,15 @@ struct RenderOptions {
   std::string camera;
   std::string sceneName;
   double timeSeconds = 0;
-  CLI::Option* time = nullptr;  // was it given?
+  bool timeGiven = false;
+  std::string animation;
+  double turnDegrees = 0;
   std::uint32_t spp = 1;
   std::string filter = "box";
   std::string msaa = "1";
-  CLI::Option* msaaGiven = nullptr;
+  bool msaaGiven = false;
   std::uint32_t maxDepth = 5;
-  CLI::Option* maxDepthGiven = nullptr;
+  bool maxDepthGiven = false;
   std::uint64_t seed = 0;
   std::vector<std::string> set;
   std::string effects = "auto";
@@ -41,6 +43,13 @@ struct RenderOptions {
   std::string progress = "auto";
   DeviceChoice device;
   bool listDevices = false;
+  // More or less than one picture.
+  std::string frames;
+  double framesPerSecond = 24;
+  std::uint32_t turntable = 0;  // frames of a whole turn; 0: none
+  std::string part;
+  std::string batch;
+  bool stopOnError = false;
 };
 
 // --exposure and --tone-map.

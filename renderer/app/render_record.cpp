@@ -13,7 +13,9 @@ Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
   return {{"width", s.width},
           {"height", s.height},
           {"camera", s.camera},
-          {"timeSeconds", o.time != nullptr && o.time->count() > 0 ? Json(o.timeSeconds) : Json(nullptr)},
+          {"timeSeconds", o.timeGiven ? Json(o.timeSeconds) : Json(nullptr)},
+          {"animation", o.animation},
+          {"turnDegrees", o.turnDegrees},
           {"spp", s.spp},
           {"filter", o.filter},
           {"msaa", s.msaa},
@@ -51,6 +53,7 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
   record["counters"] = report.counters;
   record["nonfinite"] = report.nonfinite;
   record["deviceBytes"] = report.deviceBytes;
+  record["reused"] = report.reused;
   record["promise"] = report.promise;
   record["pixelFilter"] = report.pixelFilter;
   return record;
@@ -68,13 +71,25 @@ void describeInMetadata(RenderResult& result, const RenderSettings& settings, co
   metadata["driver"] = driverOf(device);
 }
 
+bool runsBeside(const std::string& phase) { return phase == "instance" || phase == "device" || phase == "write"; }
+
+void setTimings(Json& record, const Times& timesMs) {
+  Json& timings = record["timings"] = Json::object();
+  Json& beside = record["overlapped"] = Json::array();
+  for (const auto& [phase, wallMs] : timesMs) {
+    timings[phase + "Ms"] = wallMs;
+    if (runsBeside(phase)) beside.push_back(phase);
+  }
+}
+
 std::string timesText(const Times& timesMs) {
   std::string parts, total;
   for (const auto& [phase, wallMs] : timesMs) {
     if (phase == "total") {
       total = fmt::format("{:.0f} ms", wallMs);
     } else {
-      parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", phase, wallMs);
+      const std::string text = fmt::format("{} {:.1f}", phase, wallMs);
+      parts += (parts.empty() ? "" : ", ") + (runsBeside(phase) ? "[" + text + "]" : text);
     }
   }
   return total + " (" + parts + ")";

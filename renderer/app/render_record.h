@@ -15,7 +15,12 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
 // Into the image's metadata: what made it. Nothing that differs between two runs with the same bits.
 void describeInMetadata(RenderResult& result, const RenderSettings& settings, const gpu::DeviceInfo& device);
 
-// "412 ms (load 3, device 60, ...)"
+// Phases that ran in a thread beside others. What was waited for them counts as a phase of its own: the other phases
+// add up to the total, or less.
+bool runsBeside(const std::string& phase);
+void setTimings(Json& record, const Times& timesMs);
+
+// "412 ms (load 3, device 60, ...)"; what ran beside other phases stands in brackets.
 std::string timesText(const Times& timesMs);
 
 }  // namespace crosslight

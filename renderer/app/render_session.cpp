@@ -78,11 +78,14 @@ struct PlacedScene {
   std::unique_ptr<GpuScene> onDevice;
 };
 
-// What a scene on the device depends on: not on what belongs to the film, nor on which camera stands at the origin.
+// What a scene on the device depends on: not on what belongs to the film or says how far rays go, nor on which camera
+// stands at the origin.
 RenderSettings withoutFilm(RenderSettings s) {
   s.width = s.height = 0;
   s.camera = 0;
-  s.spp = 1;
+  s.spp = s.msaa = 1;
+  s.maxDepth = 0;
+  s.shadows = s.reflection = s.refraction = true;
   s.filter = PixelFilter::box;
   s.seed = 0;
   s.allowNonfinite = false;

@@ -41,7 +41,7 @@ class Help : public CliTest {
 
 TEST_F(Help, isGivenForEveryCommandWhateverElseIsOnTheLine) {
   const std::vector<std::string> names = commands();
-  EXPECT_THAT(names, testing::IsSupersetOf({"render", "info", "devices", "sheet", "completion", "man"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"render", "info", "devices", "merge", "sheet", "completion", "man"}));
   for (const std::string& name : names) {
     const std::string help = text({name, "--help"});
     EXPECT_THAT(help, HasSubstr("Usage: crosslight " + name));
@@ -59,10 +59,37 @@ TEST_F(Help, linesFitAHundredColumns) {
 }
 
 TEST_F(Help, everyPromisedOptionOfRenderIsThere) {
-  const std::vector<std::string> promised = {
-      "output", "method",       "resolution",     "camera",   "scene",          "time",     "spp", "filter",  "msaa",
-      "seed",   "aov",          "max-depth",      "exposure", "alpha",          "tone-map", "set", "effects", "device",
-      "json",   "list-devices", "require-device", "progress", "allow-nonfinite"};
+  const std::vector<std::string> promised = {"output",
+                                             "method",
+                                             "resolution",
+                                             "camera",
+                                             "scene",
+                                             "time",
+                                             "spp",
+                                             "filter",
+                                             "msaa",
+                                             "seed",
+                                             "aov",
+                                             "max-depth",
+                                             "exposure",
+                                             "alpha",
+                                             "tone-map",
+                                             "set",
+                                             "effects",
+                                             "device",
+                                             "json",
+                                             "list-devices",
+                                             "require-device",
+                                             "progress",
+                                             "allow-nonfinite",
+                                             "batch",
+                                             "stop-on-error",
+                                             "frames",
+                                             "fps",
+                                             "animation",
+                                             "turntable",
+                                             "turn",
+                                             "part"};
   EXPECT_THAT(options("render"), testing::IsSupersetOf(promised));
 }
 
