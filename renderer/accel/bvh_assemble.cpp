@@ -45,14 +45,14 @@ Places placesOf(const Parts& parts) {
 std::uint32_t referenceOf(const Parts& parts, const Places& places, const TopNode::Child& child) {
   if (!child.isPiece) return places.ofTop[child.index];
   const Piece& piece = parts.pieces[child.index];
-  return piece.nodeCount == 0 ? piece.root : places.ofPiece[child.index];
+  return piece.nodeCount == 0 ? piece.root + piece.firstOfOrder : places.ofPiece[child.index];
 }
 
 void copyPiece(const Piece& piece, std::uint32_t at, std::uint32_t parent, std::vector<shared::BvhNode>& nodes) {
   for (std::uint32_t i = 0; i < piece.nodeCount; ++i) {
     shared::BvhNode node = piece.nodes[i];
-    if (!bvhIsLeaf(node.child0)) node.child0 += at;
-    if (!bvhIsLeaf(node.child1)) node.child1 += at;
+    node.child0 += bvhIsLeaf(node.child0) ? piece.firstOfOrder : at;
+    node.child1 += bvhIsLeaf(node.child1) ? piece.firstOfOrder : at;
     node.parent = i == 0 ? parent : node.parent + at;
     nodes[at + i] = node;
   }
@@ -74,7 +74,24 @@ void finishStats(const Parts& parts, TreeStats all, Bvh& bvh) {
   CL_CHECK_LT(bvh.stats.maxDepth, shared::kBvhStackSize);
 }
 
+void addPieces(const Parts& parts, std::uint32_t top, std::vector<std::uint32_t>& pieces) {
+  for (const TopNode::Child& child : parts.top[top].children) {
+    if (child.isPiece) {
+      pieces.push_back(child.index);
+    } else {
+      addPieces(parts, child.index, pieces);
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> piecesInOrder(const Parts& parts) {
+  if (parts.top.empty()) return {0};
+  std::vector<std::uint32_t> pieces;
+  addPieces(parts, 0, pieces);
+  return pieces;
+}
 
 void assemble(const Parts& parts, Team& team, Bvh& bvh) {
   const Places places = placesOf(parts);

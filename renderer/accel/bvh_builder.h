@@ -73,7 +73,8 @@ struct TreeStats {
 struct Piece {
   const shared::BvhNode* nodes = nullptr;
   std::uint32_t nodeCount = 0;
-  std::uint32_t root = 0;  // 0 or a leaf
+  std::uint32_t root = 0;          // 0 or a leaf
+  std::uint32_t firstOfOrder = 0;  // added to what its leaves name
   Box bounds;
   TreeStats stats;
 };

@@ -88,6 +88,8 @@ Audit expectSound(const Bvh& bvh, const std::vector<Bounds>& primitives, const B
   return result;
 }
 
+constexpr BvhQuality kQualities[] = {BvhQuality::fast, BvhQuality::medium, BvhQuality::high};
+
 Bounds boxAt(const glm::vec3& center, float half) {
   Bounds b;
   b.add(center - glm::vec3(half));
@@ -99,8 +101,10 @@ TEST(Bvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   for (const std::size_t count : {2u, 3u, 4u, 5u, 8u, 33u, 1000u, 20000u}) {
     const auto bounds = boundsOf(testing::randomSoup(count, 0.05, count));
     for (const std::uint32_t leaf : {1u, 4u, 15u}) {
-      const BvhOptions options{.maxLeafSize = leaf};
-      expectSound(buildBvh(bounds, options), bounds, options);
+      for (const BvhQuality quality : kQualities) {
+        const BvhOptions options{.maxLeafSize = leaf, .quality = quality, .nodeCost = leaf == 15 ? 3.0f : 1.0f};
+        expectSound(buildBvh(bounds, options), bounds, options);
+      }
     }
   }
 }
@@ -145,9 +149,12 @@ TEST(Bvh, SurvivesCentersThatNoPlaneSeparates) {
       points.push_back(boxAt(glm::vec3(7), 0));
     }
     for (const auto& bounds : {nested, equal, points}) {
-      const Audit result = expectSound(buildBvh(bounds), bounds);
-      // Halving from `count` to leaves of at most 4 takes ceil(log2(count)) levels at most.
-      EXPECT_LE(result.maxDepth, static_cast<std::uint32_t>(std::bit_width(count - 1)));
+      for (const BvhQuality quality : kQualities) {
+        const Audit result = expectSound(buildBvh(bounds, {.quality = quality}), bounds);
+        // Halving from `count` to leaves of at most 4 takes ceil(log2(count)) levels at most; the last four may be
+        // parted one by one, which takes one more.
+        EXPECT_LE(result.maxDepth, static_cast<std::uint32_t>(std::bit_width(count - 1)) + 1);
+      }
     }
   }
 }
@@ -162,9 +169,11 @@ TEST(Bvh, SurvivesCoordinatesAtTheEndsOfFloat) {
       b.add(random.inBox(1) * scale);
       bounds.push_back(b);
     }
-    const Bvh bvh = buildBvh(bounds);
-    expectSound(bvh, bounds);
-    EXPECT_TRUE(std::isfinite(bvh.stats.sahCost)) << "scale " << scale;
+    for (const BvhQuality quality : kQualities) {
+      const Bvh bvh = buildBvh(bounds, {.quality = quality});
+      expectSound(bvh, bounds);
+      EXPECT_TRUE(std::isfinite(bvh.stats.sahCost)) << "scale " << scale;
+    }
   }
 }
 
@@ -183,6 +192,7 @@ TEST(Bvh, StaysWithinTheStackOnExponentiallySpacedCenters) {
   }
   for (const std::uint32_t leaf : {1u, 4u}) {
     const BvhOptions options{.maxLeafSize = leaf};
+    expectSound(buildBvh(bounds, {.quality = BvhQuality::fast}), bounds);
     const Audit result = expectSound(buildBvh(bounds, options), bounds, options);
     EXPECT_GE(result.maxDepth, 50u) << "this input is meant to press against the bound";
     EXPECT_LT(result.maxDepth, shared::kBvhStackSize);
@@ -190,14 +200,16 @@ TEST(Bvh, StaysWithinTheStackOnExponentiallySpacedCenters) {
 }
 
 TEST(Bvh, IsTheSameToTheLastBitWhateverTheNumberOfThreads) {
-  const auto bounds = boundsOf(testing::randomSoup(50000, 0.02, 11));
-  const Bvh one = buildBvh(bounds, {.threads = 1});
-  for (const std::uint32_t threads : {0u, 2u, 3u, 8u}) {
-    const Bvh other = buildBvh(bounds, {.threads = threads});
-    ASSERT_EQ(one.nodes.size(), other.nodes.size());
-    EXPECT_EQ(0, std::memcmp(one.nodes.data(), other.nodes.data(), one.nodes.size() * sizeof(shared::BvhNode)));
-    EXPECT_EQ(one.order, other.order);
-    EXPECT_EQ(one.stats.sahCost, other.stats.sahCost);
+  const auto bounds = boundsOf(testing::randomSoup(150000, 0.02, 11));
+  for (const BvhQuality quality : {BvhQuality::fast, BvhQuality::medium}) {
+    const Bvh one = buildBvh(bounds, {.threads = 1, .quality = quality});
+    for (const std::uint32_t threads : {0u, 2u, 3u, 8u}) {
+      const Bvh other = buildBvh(bounds, {.threads = threads, .quality = quality});
+      ASSERT_EQ(one.nodes.size(), other.nodes.size());
+      EXPECT_EQ(0, std::memcmp(one.nodes.data(), other.nodes.data(), one.nodes.size() * sizeof(shared::BvhNode)));
+      EXPECT_EQ(one.order, other.order);
+      EXPECT_EQ(one.stats.sahCost, other.stats.sahCost);
+    }
   }
 }
 
@@ -212,6 +224,17 @@ TEST(Bvh, ReportsTheSurfaceAreaCost) {
   const Bvh bvh = buildBvh(two);
   EXPECT_DOUBLE_EQ(bvh.stats.sahCost, 1 + 2 * 6.0 / 18.0);
   EXPECT_EQ(bvh.stats.leafCount, 2u);
+}
+
+TEST(Bvh, ReportsItsMemory) {
+  const auto bounds = boundsOf(testing::randomSoup(20000, 0.01, 2));
+  const Bvh bvh = buildBvh(bounds);
+  EXPECT_EQ(bvh.stats.primitives, 20000u);
+  EXPECT_EQ(bvh.stats.sizeBytes, bvh.nodes.size() * 64 + bvh.order.size() * 4);
+  EXPECT_DOUBLE_EQ(bvh.stats.bytesPerPrimitive(), static_cast<double>(bvh.stats.sizeBytes) / 20000);
+  EXPECT_LE(bvh.stats.bytesPerPrimitive(), 68.0) << "one node less than primitives, and the order";
+  EXPECT_GE(bvh.stats.peakBytes, bvh.stats.sizeBytes);
+  EXPECT_LE(bvh.stats.peakBytes, 20000u * (2 * 32 + 64 + 4)) << "two references and a node each, and the order";
 }
 
 TEST(Bvh, IsCheaperThanOneOfMediansOnUnevenInput) {
