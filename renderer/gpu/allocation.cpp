@@ -50,7 +50,7 @@ Allocation allocate(DeviceImpl& device, const std::string& what, const vk::Memor
       if (!fits(device, type, needs, wish)) continue;
       try {
         vk::raii::DeviceMemory memory(device.device, vk::MemoryAllocateInfo(needs.size, type));
-        return Allocation(device, std::move(memory), needs.size, device.memory.memoryTypes[type].propertyFlags,
+        return Allocation(device, std::move(memory), needs.size, type,
                           bool(wish.flags & vk::MemoryPropertyFlagBits::eHostVisible));
       } catch (const vk::OutOfDeviceMemoryError&) {
         continue;  // another heap may still have room
@@ -64,9 +64,13 @@ Allocation allocate(DeviceImpl& device, const std::string& what, const vk::Memor
                   needs.size, device.info.name, device.allocatedBytes));
 }
 
-Allocation::Allocation(DeviceImpl& device, vk::raii::DeviceMemory memory, std::uint64_t sizeBytes,
-                       vk::MemoryPropertyFlags flags, bool map)
-    : device_(&device), memory_(std::move(memory)), sizeBytes_(sizeBytes), flags_(flags) {
+Allocation::Allocation(DeviceImpl& device, vk::raii::DeviceMemory memory, std::uint64_t sizeBytes, std::uint32_t type,
+                       bool map)
+    : device_(&device),
+      memory_(std::move(memory)),
+      sizeBytes_(sizeBytes),
+      type_(type),
+      flags_(device.memory.memoryTypes[type].propertyFlags) {
   if (map) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
   device.allocatedBytes += sizeBytes;
   device.peakAllocatedBytes = std::max(device.peakAllocatedBytes, device.allocatedBytes);
@@ -76,6 +80,7 @@ Allocation::Allocation(Allocation&& other) noexcept
     : device_(std::exchange(other.device_, nullptr)),
       memory_(std::move(other.memory_)),
       sizeBytes_(other.sizeBytes_),
+      type_(other.type_),
       flags_(other.flags_),
       mapped_(other.mapped_) {}
 

@@ -19,6 +19,8 @@ vk::DescriptorType descriptorType(BindingType type) {
       return vk::DescriptorType::eStorageBuffer;
     case BindingType::uniformBuffer:
       return vk::DescriptorType::eUniformBuffer;
+    case BindingType::uniformWindow:
+      return vk::DescriptorType::eUniformBufferDynamic;
     default:
       return vk::DescriptorType::eUniformTexelBuffer;
   }
@@ -28,6 +30,7 @@ bool isTexelBuffer(BindingType type) { return descriptorType(type) == vk::Descri
 
 std::uint32_t useOf(BindingType type) {
   if (type == BindingType::storageBuffer) return useStorage;
+  if (type == BindingType::uniformWindow) return useUniformWindows;
   return type == BindingType::uniformBuffer ? useUniform : useUniformTexel;
 }
 
@@ -104,9 +107,18 @@ BindingSet::BindingSet(const Device& device, const BindingLayout& layout)
   guarded("making a binding set", [&] { fillSet(*impl_); });
 }
 
-void BindingSet::set(std::uint32_t slot, const Buffer& buffer) {
+void BindingSet::set(std::uint32_t slot, const Buffer& buffer) { setPart(slot, buffer, buffer.sizeBytes(), false); }
+
+void BindingSet::setWindow(std::uint32_t slot, const Buffer& buffer, std::uint64_t windowBytes) {
+  CL_CHECK_LE(windowBytes, std::uint64_t{impl_->device->limits.maxUniformBufferRange});
+  CL_CHECK_LE(windowBytes, buffer.sizeBytes());
+  setPart(slot, buffer, windowBytes, true);
+}
+
+void BindingSet::setPart(std::uint32_t slot, const Buffer& buffer, std::uint64_t bytes, bool isWindow) {
   const std::size_t position = positionOf(*impl_->layout, slot);
   const BindingType type = impl_->layout->bindings[position].type;
+  CL_CHECK_EQ(type == BindingType::uniformWindow, isWindow);
   const BufferImpl& bound = buffer.impl();
   if ((bound.use & useOf(type)) == 0) {
     throw InternalError(fmt::format("broken invariant: buffer '{}' was not made for the use that binding slot {} has",
@@ -114,7 +126,7 @@ void BindingSet::set(std::uint32_t slot, const Buffer& buffer) {
   }
   guarded("binding buffer '" + bound.name + "'", [&] {
     // The padding at a buffer's end stays hidden from .length() in shaders.
-    const vk::DescriptorBufferInfo range(*bound.buffer, 0, bound.sizeBytes > 0 ? bound.sizeBytes : VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo range(*bound.buffer, 0, bytes > 0 ? bytes : VK_WHOLE_SIZE);
     auto write =
         vk::WriteDescriptorSet().setDstSet(impl_->set).setDstBinding(slot).setDescriptorType(descriptorType(type));
     vk::BufferView view;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/check.h"
 #include "base/time.h"
 #include "gpu/commands_impl.h"
@@ -18,6 +20,11 @@ void fillCommands(CommandsImpl& impl) {
   impl.fence = vk::raii::Fence(device.device, vk::FenceCreateInfo());
 }
 
+std::size_t windowCount(const BindingLayoutImpl& layout) {
+  return static_cast<std::size_t>(std::count_if(layout.bindings.begin(), layout.bindings.end(),
+                                                [](const Binding& b) { return b.type == BindingType::uniformWindow; }));
+}
+
 void bindPipeline(CommandsImpl& impl, const PipelineImpl& pipeline, const BindingSetImpl& set) {
   CL_CHECK(impl.recording);
   CL_CHECK(pipeline.layout == set.layout);
@@ -26,7 +33,8 @@ void bindPipeline(CommandsImpl& impl, const PipelineImpl& pipeline, const Bindin
     throw InternalError(fmt::format("broken invariant: binding slot {} has no buffer", set.layout->bindings[i].slot));
   }
   impl.commands.bindPipeline(pipeline.point, *pipeline.pipeline);
-  impl.commands.bindDescriptorSets(pipeline.point, *pipeline.layout->pipeline, 0, set.set, {});
+  const std::vector<std::uint32_t> offsets(windowCount(*set.layout), 0u);
+  impl.commands.bindDescriptorSets(pipeline.point, *pipeline.layout->pipeline, 0, set.set, offsets);
   impl.bound = pipeline.layout;
   impl.pipeline = &pipeline;
 }
@@ -63,6 +71,14 @@ void Commands::bind(const ComputePipeline& pipeline, const BindingSet& set) {
 
 void Commands::bind(const GraphicsPipeline& pipeline, const BindingSet& set) {
   bindPipeline(*impl_, pipeline.impl(), set.impl());
+}
+
+void Commands::moveWindows(const BindingSet& set, std::span<const std::uint32_t> offsets) {
+  CL_CHECK(impl_->pipeline != nullptr && impl_->bound == set.impl().layout);
+  CL_CHECK_EQ(offsets.size(), windowCount(*impl_->bound));
+  for (const std::uint32_t offset : offsets) CL_CHECK_EQ(offset % impl_->device->info.uniformWindowAlignment, 0u);
+  const vk::ArrayProxy<const std::uint32_t> moved(static_cast<std::uint32_t>(offsets.size()), offsets.data());
+  impl_->commands.bindDescriptorSets(impl_->pipeline->point, *impl_->bound->pipeline, 0, set.impl().set, moved);
 }
 
 void Commands::push(std::span<const std::byte> bytes) {

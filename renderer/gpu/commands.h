@@ -13,13 +13,15 @@
 
 namespace crosslight::gpu {
 
-// What a rendering pass draws into. The whole image is the viewport. `resolve` takes the average of a multisampled
-// color.
+enum class ColorBefore { clear, keep, undefined };  // undefined: the caller draws over every pixel
+
+// What a rendering pass draws into. The whole image is the viewport until viewportRows. `resolve` takes the average of
+// a multisampled color.
 struct RenderTargets {
   const Image* color = nullptr;
   const Image* resolve = nullptr;
   const Image* depth = nullptr;
-  bool clearColor = true;
+  ColorBefore colorBefore = ColorBefore::clear;
   bool clearDepth = true;  // to 0: reversed Z
   glm::vec4 clearValue{0.0f};
 };
@@ -37,6 +39,9 @@ class Commands {
   void begin();  // forgets what was recorded before
   void bind(const ComputePipeline& pipeline, const BindingSet& set);
   void bind(const GraphicsPipeline& pipeline, const BindingSet& set);
+  // Moves the set's uniform windows, in the order of their slots, to these bytes of their buffers; after bind, which
+  // sets them to 0. Multiples of DeviceInfo::uniformWindowAlignment.
+  void moveWindows(const BindingSet& set, std::span<const std::uint32_t> offsets);
   void push(std::span<const std::byte> bytes);  // after bind; offset 0
   template <class T>
   void push(const T& value) {
@@ -51,16 +56,22 @@ class Commands {
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   enum class Cull { none, back };
   void cull(Cull mode, bool clockwiseIsFront);
+  // Draws rows [firstRow, firstRow + the target's) of a picture of `height` rows: the viewport is the whole picture,
+  // moved.
+  void viewportRows(std::uint32_t firstRow, std::uint32_t height);
   // Draws only into these rows; after beginRendering, which sets the whole image.
   void scissorRows(std::uint32_t firstRow, std::uint32_t rowCount);
   void drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
                    std::uint32_t firstInstance);
 
+  void draw(std::uint32_t vertexCount);  // without buffers: the shader makes the vertices from their index
+
   void fill(const Buffer& buffer, std::uint64_t offset, std::uint64_t sizeBytes, std::uint32_t value);
   void copy(const Buffer& from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t toOffset,
             std::uint64_t sizeBytes);
-  // Rows [firstRow, firstRow + rowCount), tightly packed, to offset 0; samples == 1.
-  void copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint32_t rowCount, const Buffer& to);
+  // Rows [firstRow, firstRow + rowCount), tightly packed; samples == 1.
+  void copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint32_t rowCount, const Buffer& to,
+                    std::uint64_t toOffset = 0);
 
   // All work recorded before is finished, and its writes visible, for all work recorded after (host reads included).
   void barrier();

@@ -24,7 +24,8 @@ struct DeviceInfo {
   float timestampPeriodNs = 0;  // 0: no timestamps
   std::uint64_t maxStorageBufferBytes = 0;
   std::uint64_t maxTexelBufferElements = 0;
-  std::uint32_t maxImageSize = 0;  // of a 2D color attachment
+  std::uint32_t uniformWindowAlignment = 0;  // of the offsets of uniform windows, bytes
+  std::uint32_t maxImageSize = 0;            // of a 2D color attachment
   std::uint32_t maxWorkGroupCountX = 0;
   // Passes through all loops together, nested ones included, after which a shader invocation is cut short without a
   // word; 0: no such limit. Vulkan has no such limit, llvmpipe has.

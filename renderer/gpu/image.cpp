@@ -11,6 +11,8 @@
 namespace crosslight::gpu {
 namespace {
 
+constexpr std::uint64_t kPixelBytes = 16;  // RGBA32F
+
 vk::ImageUsageFlags usageOf(ImageFormat format) {
   using Usage = vk::ImageUsageFlagBits;
   if (format == ImageFormat::depth32f) return Usage::eDepthStencilAttachment;
@@ -40,21 +42,44 @@ vk::ImageCreateInfo imageInfo(const ImageImpl& image) {
       .setUsage(usageOf(image.format));
 }
 
-void fillImage(ImageImpl& image, const std::string& what) {
-  static constexpr std::array<MemoryWish, 2> kWishes{MemoryWish{vk::MemoryPropertyFlagBits::eDeviceLocal},
-                                                     MemoryWish{}};
-  const vk::raii::Device& device = image.device->device;
-  image.image = vk::raii::Image(device, imageInfo(image));
-  image.memory =
-      std::make_unique<Allocation>(allocate(*image.device, what, image.image.getMemoryRequirements(), kWishes));
-  image.image.bindMemory(image.memory->handle(), 0);
+void makeView(ImageImpl& image) {
   const auto view = vk::ImageViewCreateInfo()
                         .setImage(*image.image)
                         .setViewType(vk::ImageViewType::e2D)
                         .setFormat(formatOf(image.format))
                         .setSubresourceRange({aspectOf(image.format), 0, 1, 0, 1});
-  image.view = vk::raii::ImageView(device, view);
+  image.view = vk::raii::ImageView(image.device->device, view);
   nameObject(*image.device, image.image, image.name);
+}
+
+void fillImage(ImageImpl& image, const std::string& what) {
+  static constexpr std::array<MemoryWish, 2> kWishes{MemoryWish{vk::MemoryPropertyFlagBits::eDeviceLocal},
+                                                     MemoryWish{}};
+  image.image = vk::raii::Image(image.device->device, imageInfo(image));
+  image.memory =
+      std::make_unique<Allocation>(allocate(*image.device, what, image.image.getMemoryRequirements(), kWishes));
+  image.image.bindMemory(image.memory->handle(), 0);
+  makeView(image);
+}
+
+bool canDrawLinear(const DeviceImpl& device, const vk::ImageCreateInfo& info) {
+  using Flag = vk::FormatFeatureFlagBits;
+  constexpr auto kNeeds = Flag::eColorAttachment | Flag::eColorAttachmentBlend;
+  if ((device.physical.getFormatProperties(info.format).linearTilingFeatures & kNeeds) != kNeeds) return false;
+  try {
+    const auto most = device.physical.getImageFormatProperties(info.format, info.imageType, info.tiling, info.usage);
+    return info.extent.width <= most.maxExtent.width && info.extent.height <= most.maxExtent.height;
+  } catch (const vk::FormatNotSupportedError&) {
+    return false;
+  }
+}
+
+// Whether the image's rows lie in the buffer's memory as they would in the buffer itself.
+bool fitsOver(const ImageImpl& image, const BufferImpl& buffer) {
+  const vk::MemoryRequirements needs = image.image.getMemoryRequirements();
+  const vk::SubresourceLayout layout = image.image.getSubresourceLayout({vk::ImageAspectFlagBits::eColor, 0, 0});
+  return (needs.memoryTypeBits >> buffer.memory.type() & 1u) != 0 && needs.size <= buffer.memory.sizeBytes() &&
+         layout.offset == 0 && layout.rowPitch == kPixelBytes * image.extent.width;
 }
 
 }  // namespace
@@ -82,6 +107,25 @@ Image::Image(const Device& device, std::string name, ImageFormat format, std::ui
   checkExtent(*impl_->device, what, width, height);
   checkSamples(*impl_->device, what, samples);
   guarded("making " + what, [&] { fillImage(*impl_, what); });
+}
+
+Image Image::over(const Device& device, std::string name, const Buffer& buffer, std::uint32_t width,
+                  std::uint32_t height) {
+  Image image;
+  if (!device.info().isSoftware) return image;
+  CL_CHECK_LE(kPixelBytes * width * height, buffer.sizeBytes());
+  const std::string what = fmt::format("image '{}'", name);
+  Owned<ImageImpl> impl(new ImageImpl{&device.impl(), std::move(name), ImageFormat::rgba32f, {width, height}, 1, true});
+  guarded("making " + what, [&] {
+    const vk::ImageCreateInfo info = imageInfo(*impl).setTiling(vk::ImageTiling::eLinear);
+    if (!canDrawLinear(*impl->device, info)) return;
+    impl->image = vk::raii::Image(impl->device->device, info);
+    if (!fitsOver(*impl, buffer.impl())) return;
+    impl->image.bindMemory(buffer.impl().memory.handle(), 0);
+    makeView(*impl);
+    image.impl_ = std::move(impl);
+  });
+  return image;
 }
 
 std::uint32_t Image::width() const { return impl_->extent.width; }

@@ -53,13 +53,14 @@ struct DeviceImpl {
 class Allocation {
  public:
   Allocation() = default;
-  Allocation(DeviceImpl& device, vk::raii::DeviceMemory memory, std::uint64_t sizeBytes, vk::MemoryPropertyFlags flags,
-             bool map);
+  Allocation(DeviceImpl& device, vk::raii::DeviceMemory memory, std::uint64_t sizeBytes, std::uint32_t type, bool map);
   Allocation(Allocation&& other) noexcept;
   Allocation& operator=(Allocation&& other) = delete;
   ~Allocation();
 
   vk::DeviceMemory handle() const { return *memory_; }
+  std::uint64_t sizeBytes() const { return sizeBytes_; }
+  std::uint32_t type() const { return type_; }
   std::byte* mapped() const { return mapped_; }  // null: only the device reaches it
   bool cached() const { return bool(flags_ & vk::MemoryPropertyFlagBits::eHostCached); }
   void flush() const;       // host writes become visible to the device
@@ -70,6 +71,7 @@ class Allocation {
   DeviceImpl* device_ = nullptr;
   vk::raii::DeviceMemory memory_{nullptr};
   std::uint64_t sizeBytes_ = 0;
+  std::uint32_t type_ = 0;  // index of the memory type
   vk::MemoryPropertyFlags flags_;
   std::byte* mapped_ = nullptr;
 };
@@ -98,6 +100,7 @@ struct ImageImpl {
   ImageFormat format;
   vk::Extent2D extent;
   std::uint32_t samples;
+  bool overBuffer = false;                               // stays in the general layout, in which both agree
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;  // after all work submitted so far
   std::unique_ptr<Allocation> memory = nullptr;
   vk::raii::Image image{nullptr};

@@ -24,7 +24,7 @@ vk::BufferUsageFlags usageOf(std::uint32_t use) {
   vk::BufferUsageFlags flags = Usage::eTransferSrc | Usage::eTransferDst;
   if (use & useStorage) flags |= Usage::eStorageBuffer;
   if (use & useUniformTexel) flags |= Usage::eUniformTexelBuffer;
-  if (use & useUniform) flags |= Usage::eUniformBuffer;
+  if (use & (useUniform | useUniformWindows)) flags |= Usage::eUniformBuffer;
   if (use & useVertex) flags |= Usage::eVertexBuffer;
   if (use & useIndex) flags |= Usage::eIndexBuffer;
   if (use & useIndirect) flags |= Usage::eIndirectBuffer;

@@ -20,8 +20,9 @@ enum BufferUse : std::uint32_t {
   useVertex = 8,
   useIndex = 16,
   useIndirect = 32,
-  useReadback = 64,    // host-visible and cached: read() is fast
-  useHostWrite = 128,  // host-visible: write() needs no staging copy; for small, often changed data
+  useReadback = 64,         // host-visible and cached: read() is fast
+  useHostWrite = 128,       // host-visible: write() needs no staging copy; for small, often changed data
+  useUniformWindows = 256,  // of BindingType::uniformWindow: maxUniformBufferRange holds for each window, not for all
 };
 
 struct BufferImpl;
@@ -64,6 +65,12 @@ class Image {
   Image() = default;
   Image(const Device& device, std::string name, ImageFormat format, std::uint32_t width, std::uint32_t height,
         std::uint32_t samples = 1);
+
+  // A color target of one sample whose pixels are the buffer's contents, row after row from its beginning: what is
+  // drawn needs no copy. Empty where the device cannot lay it out so; the buffer must outlive it. Software devices
+  // only: hardware draws slowly into such memory.
+  static Image over(const Device& device, std::string name, const Buffer& buffer, std::uint32_t width,
+                    std::uint32_t height);
 
   explicit operator bool() const { return impl_ != nullptr; }
   std::uint32_t width() const;

@@ -96,6 +96,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
   info.apiVersion = versionText(basic.apiVersion);
   info.isSoftware = basic.deviceType == vk::PhysicalDeviceType::eCpu;
   info.maxStorageBufferBytes = basic.limits.maxStorageBufferRange;
+  info.uniformWindowAlignment = static_cast<std::uint32_t>(basic.limits.minUniformBufferOffsetAlignment);
   info.maxTexelBufferElements = basic.limits.maxTexelBufferElements;
   info.maxWorkGroupCountX = basic.limits.maxComputeWorkGroupCount[0];
   info.deviceLocalBytes = deviceLocalBytes(physical);

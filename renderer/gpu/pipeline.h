@@ -28,7 +28,8 @@ struct Constant {
 };
 using Constants = std::vector<Constant>;
 
-enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint4 };
+// A uniformWindow shows the shaders one record of a buffer of many; which, is said when the set is bound.
+enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint4, uniformWindow };
 struct Binding {
   std::uint32_t slot;
   BindingType type;
@@ -55,9 +56,11 @@ class BindingSet {
   BindingSet() = default;
   BindingSet(const Device& device, const BindingLayout& layout);
   void set(std::uint32_t slot, const Buffer& buffer);
+  void setWindow(std::uint32_t slot, const Buffer& buffer, std::uint64_t windowBytes);  // a uniformWindow
   BindingSetImpl& impl() const { return *impl_; }
 
  private:
+  void setPart(std::uint32_t slot, const Buffer& buffer, std::uint64_t bytes, bool isWindow);
   Owned<BindingSetImpl> impl_;
 };
 

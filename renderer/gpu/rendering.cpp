@@ -61,21 +61,32 @@ void checkTargets(const RenderTargets& targets) {
   CL_CHECK(targets.resolve == nullptr || main.samples > 1);
 }
 
+vk::AttachmentLoadOp loadOpOf(ColorBefore before) {
+  if (before == ColorBefore::clear) return vk::AttachmentLoadOp::eClear;
+  return before == ColorBefore::keep ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare;
+}
+
+vk::ImageLayout colorLayout(const ImageImpl& image) {
+  return image.overBuffer ? vk::ImageLayout::eGeneral : vk::ImageLayout::eColorAttachmentOptimal;
+}
+
 vk::RenderingAttachmentInfo colorAttachment(CommandsImpl& impl, const RenderTargets& targets) {
-  constexpr auto kLayout = vk::ImageLayout::eColorAttachmentOptimal;
+  const vk::ImageLayout layout = colorLayout(targets.color->impl());
   const glm::vec4& clear = targets.clearValue;
-  moveTo(impl, targets.color->impl(), kLayout, !targets.clearColor);
+  const bool keeps = targets.colorBefore == ColorBefore::keep;
+  moveTo(impl, targets.color->impl(), layout, keeps);
   auto info = vk::RenderingAttachmentInfo()
                   .setImageView(*targets.color->impl().view)
-                  .setImageLayout(kLayout)
-                  .setLoadOp(targets.clearColor ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad)
+                  .setImageLayout(layout)
+                  .setLoadOp(loadOpOf(targets.colorBefore))
                   .setStoreOp(vk::AttachmentStoreOp::eStore)
                   .setClearValue(vk::ClearColorValue(std::array{clear.r, clear.g, clear.b, clear.a}));
   if (targets.resolve == nullptr) return info;
-  moveTo(impl, targets.resolve->impl(), kLayout, false);
+  const vk::ImageLayout resolveLayout = colorLayout(targets.resolve->impl());
+  moveTo(impl, targets.resolve->impl(), resolveLayout, false);
   return info.setResolveMode(vk::ResolveModeFlagBits::eAverage)
       .setResolveImageView(*targets.resolve->impl().view)
-      .setResolveImageLayout(kLayout);
+      .setResolveImageLayout(resolveLayout);
 }
 
 vk::RenderingAttachmentInfo depthAttachment(CommandsImpl& impl, const RenderTargets& targets) {
@@ -96,6 +107,21 @@ void setDrawDefaults(const vk::raii::CommandBuffer& commands, const vk::Extent2D
   commands.setScissor(0, vk::Rect2D({0, 0}, extent));
   commands.setCullMode(vk::CullModeFlagBits::eNone);
   commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+}
+
+// Vulkan bounds both a viewport's size and where it may lie.
+void checkViewport(const DeviceImpl& device, std::uint32_t firstRow, std::uint32_t height) {
+  CL_CHECK_LT(firstRow, height);
+  CL_CHECK_LE(height, device.limits.maxViewportDimensions[1]);
+  CL_CHECK_LE(device.limits.viewportBoundsRange[0], -static_cast<float>(firstRow));
+}
+
+void checkCanDraw(const CommandsImpl& impl) {
+  CL_CHECK(impl.drawing);
+  CL_CHECK(impl.pipeline != nullptr && impl.pipeline->point == vk::PipelineBindPoint::eGraphics);
+  CL_CHECK_EQ(impl.pipeline->samples, impl.targetSamples);
+  CL_CHECK_EQ(impl.pipeline->drawsColor, impl.targetHasColor);
+  CL_CHECK_EQ(impl.pipeline->drawsDepth, impl.targetHasDepth);
 }
 
 }  // namespace
@@ -154,26 +180,37 @@ void Commands::scissorRows(std::uint32_t firstRow, std::uint32_t rowCount) {
       0, vk::Rect2D({0, static_cast<std::int32_t>(firstRow)}, {impl_->targetExtent.width, rowCount}));
 }
 
+void Commands::viewportRows(std::uint32_t firstRow, std::uint32_t height) {
+  CL_CHECK(impl_->drawing);
+  checkViewport(*impl_->device, firstRow, height);
+  impl_->commands.setViewport(
+      0, vk::Viewport(0, -static_cast<float>(firstRow), static_cast<float>(impl_->targetExtent.width),
+                      static_cast<float>(height), 0.0f, 1.0f));
+}
+
 void Commands::drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
                            std::uint32_t firstInstance) {
-  CL_CHECK(impl_->drawing);
-  CL_CHECK(impl_->pipeline != nullptr && impl_->pipeline->point == vk::PipelineBindPoint::eGraphics);
-  CL_CHECK_EQ(impl_->pipeline->samples, impl_->targetSamples);
-  CL_CHECK_EQ(impl_->pipeline->drawsColor, impl_->targetHasColor);
-  CL_CHECK_EQ(impl_->pipeline->drawsDepth, impl_->targetHasDepth);
+  checkCanDraw(*impl_);
   impl_->commands.drawIndexed(indexCount, 1, firstIndex, vertexOffset, firstInstance);
 }
 
-void Commands::copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint32_t rowCount, const Buffer& to) {
+void Commands::draw(std::uint32_t vertexCount) {
+  checkCanDraw(*impl_);
+  impl_->commands.draw(vertexCount, 1, 0, 0);
+}
+
+void Commands::copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint32_t rowCount, const Buffer& to,
+                            std::uint64_t toOffset) {
   CL_CHECK(impl_->recording && !impl_->drawing);
   ImageImpl& image = from.impl();
   CL_CHECK_EQ(image.samples, 1u);
   CL_CHECK(image.format == ImageFormat::rgba32f);
   checkRows(image.extent, firstRow, rowCount);
-  checkRange(to.impl(), 0, std::uint64_t{16} * image.extent.width * rowCount);
+  checkRange(to.impl(), toOffset, std::uint64_t{16} * image.extent.width * rowCount);
   if (rowCount == 0) return;
   moveTo(*impl_, image, vk::ImageLayout::eTransferSrcOptimal, true);
   const auto region = vk::BufferImageCopy()
+                          .setBufferOffset(toOffset)
                           .setImageSubresource({vk::ImageAspectFlagBits::eColor, 0, 0, 1})
                           .setImageOffset({0, static_cast<std::int32_t>(firstRow), 0})
                           .setImageExtent({image.extent.width, rowCount, 1});

@@ -73,6 +73,40 @@ TEST_F(GpuTest, ConstantsPushesAndEveryKindOfBindingReachTheShader) {
   }
 }
 
+TEST_F(GpuTest, AUniformWindowShowsTheRecordThatItWasMovedTo) {
+  ScaleAdd job(device());
+  const BindingLayout layout(device(),
+                             {{0, BindingType::storageBuffer},
+                              {1, BindingType::storageBuffer},
+                              {2, BindingType::texelBufferFloat4},
+                              {3, BindingType::texelBufferUint4},
+                              {4, BindingType::uniformWindow}},
+                             sizeof(ScalePush));
+  const ComputePipeline pipeline(device(), layout, embeddedShader("scale_add.comp"), {{0, ScaleAdd::kGroup}, {1, 3u}});
+  const std::uint32_t step = std::max(4u, device().info().uniformWindowAlignment);
+  std::vector<std::uint32_t> records(3 * step / 4, 0u);
+  for (std::uint32_t i = 0; i < 3; ++i) records[i * step / 4] = 11 + i;
+  const Buffer windows = Buffer::of(device(), "windows", records, useUniformWindows);
+  BindingSet set(device(), layout);
+  set.set(0, job.in);
+  set.set(1, job.out);
+  set.set(2, job.floats);
+  set.set(3, job.uints);
+  EXPECT_THROW(set.set(4, windows), InternalError) << "a window has a size of its own";
+  set.setWindow(4, windows, 4);
+  for (const std::uint32_t record : {0u, 2u}) {
+    Commands commands(device());
+    commands.begin();
+    commands.bind(pipeline, set);
+    const std::uint32_t offset = record * step;
+    if (record > 0) commands.moveWindows(set, std::span(&offset, 1));
+    commands.push(ScalePush{ScaleAdd::kCount, 100});
+    commands.dispatch((ScaleAdd::kCount + ScaleAdd::kGroup - 1) / ScaleAdd::kGroup);
+    commands.submitAndWait();
+    EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(3, 100 + record));
+  }
+}
+
 TEST_F(GpuTest, WorkOnMemoryThatTheHostCannotReachGivesTheSame) {
   DeviceOptions options;
   options.neverMap = true;

@@ -30,7 +30,8 @@ class Canvas {
   }
 
   RenderTargets targets() const {
-    return {&color_, resolve_ ? &resolve_ : nullptr, &depth_, true, true, glm::vec4(0.25f, 0.5f, 0.75f, 1.0f)};
+    return {&color_, resolve_ ? &resolve_ : nullptr,     &depth_, ColorBefore::clear,
+            true,    glm::vec4(0.25f, 0.5f, 0.75f, 1.0f)};
   }
 
   // Records one pass with everything in `vertices`; `before` may change the dynamic state.
@@ -160,7 +161,8 @@ TEST_F(GpuTest, DepthBiasMovesASurfaceNearer) {
   canvas.draw(commands, canvas.targets(), first);
   canvas.state.depthBiasConstant = 4.0f;
   RenderTargets again = canvas.targets();
-  again.clearColor = again.clearDepth = false;
+  again.colorBefore = ColorBefore::keep;
+  again.clearDepth = false;
   canvas.draw(commands, again, second);
   EXPECT_THAT(canvas.rows(commands, 0, 4), testing::Each(kGreen));
 }
@@ -234,6 +236,39 @@ TEST_F(GpuTest, BandsOfRowsAreDrawnAndReadBackByThemselves) {
   }
 }
 
+TEST_F(GpuTest, AViewportOfRowsShowsThatPartOfThePicture) {
+  // The lower half of a picture of 8 rows is red; the target holds its rows 2 to 5.
+  const glm::vec4 a(-1, 0, 0.5f, 1), b(-1, 1, 0.5f, 1), c(1, 1, 0.5f, 1), d(1, 0, 0.5f, 1);
+  const std::vector<Vertex> lowerHalf{{a, kRed}, {b, kRed}, {c, kRed}, {a, kRed}, {c, kRed}, {d, kRed}};
+  Canvas canvas(device(), 4, 4);
+  const auto pixels = canvas.image(lowerHalf, [](Commands& commands) { commands.viewportRows(2, 8); });
+  for (std::uint32_t y = 0; y < 4; ++y) {
+    for (std::uint32_t x = 0; x < 4; ++x) EXPECT_EQ(pixels[4 * y + x], y + 2 < 4 ? kClear : kRed) << x << ", " << y;
+  }
+}
+
+TEST_F(GpuTest, AnImageOverABufferIsTheBuffersContents) {
+  const Buffer pixels(device(), "pixels", 16 * 8 * 8, useStorage);
+  const Image picture = Image::over(device(), "picture", pixels, 8, 8);
+  if (!picture) GTEST_SKIP() << device().info().name << " does not lay out an image as a buffer";
+  Canvas canvas(device(), 8, 8);
+  Commands commands(device());
+  commands.begin();
+  RenderTargets targets = canvas.targets();
+  targets.color = &picture;
+  canvas.draw(commands, targets, leftPart(0.0f, 0.5f, kRed));
+  commands.submitAndWait();
+  const auto contents = pixels.readAll<glm::vec4>();
+  for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(contents[i], i % 8 < 4 ? kRed : kClear) << i;
+}
+
+TEST_F(GpuTest, AnImageWhoseRowsABufferCannotHoldIsNotMade) {
+  // 3 pixels are 48 bytes: llvmpipe begins rows at multiples of 64.
+  const Buffer pixels(device(), "pixels", 16 * 3 * 3, useStorage);
+  if (!device().info().isSoftware) GTEST_SKIP() << "of software devices";
+  EXPECT_FALSE(Image::over(device(), "picture", pixels, 3, 3));
+}
+
 TEST_F(GpuTest, ASecondBatchKeepsWhatTheFirstOneDrew) {
   Canvas canvas(device(), 4, 4);
   Commands commands(device());
@@ -242,7 +277,8 @@ TEST_F(GpuTest, ASecondBatchKeepsWhatTheFirstOneDrew) {
   EXPECT_THAT(canvas.rows(commands, 0, 4), testing::Each(kRed));
   commands.begin();
   RenderTargets more = canvas.targets();
-  more.clearColor = more.clearDepth = false;
+  more.colorBefore = ColorBefore::keep;
+  more.clearDepth = false;
   canvas.draw(commands, more, leftPart(0.0f, 0.75f, kGreen));
   const auto pixels = canvas.rows(commands, 0, 4);
   EXPECT_EQ(pixels[1], kGreen);
@@ -254,7 +290,7 @@ TEST_F(GpuTest, DrawingMisuseIsABrokenInvariant) {
   Commands commands(device());
   commands.begin();
   RenderTargets unset = canvas.targets();
-  unset.clearColor = false;
+  unset.colorBefore = ColorBefore::keep;
   EXPECT_THROW(commands.beginRendering(unset), InternalError) << "keeps contents that never were";
   const Image wider(device(), "wider", ImageFormat::rgba32f, 5, 4);
   RenderTargets mixed = canvas.targets();
