@@ -1,6 +1,7 @@
 #include "raster/method_shaders.h"
 
 #include "base/check.h"
+#include "raster_bindings.h"
 
 namespace crosslight {
 
@@ -20,6 +21,26 @@ MethodShaders shadersOf(const RenderSettings& settings) {
   }
   CL_CHECK(settings.method != Method::whitted);
   return {};
+}
+
+std::uint32_t depthVaryingsOf(const Plan& plan) {
+  const bool textured = plan.has(Effect::baseColorTexture) && plan.has(Effect::alphaMask);
+  const bool colored = plan.has(Effect::vertexColors) && plan.has(Effect::alphaMask);
+  return (textured ? shared::kVaryingUvs : 0u) | (colored ? shared::kVaryingColor : 0u);
+}
+
+std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan) {
+  std::uint32_t bits = 0;
+  for (const Effect e : {Effect::baseColorTexture, Effect::metallicRoughnessTexture, Effect::normalMap,
+                         Effect::occlusionTexture, Effect::emissiveTexture}) {
+    if (plan.has(e)) bits |= shared::kVaryingUvs;
+  }
+  if (plan.has(Effect::vertexColors)) bits |= shared::kVaryingColor;
+  if (settings.method != Method::phong) return bits;
+  // Lighting per fragment; at a centroid (flat.centroid) the triangle's corners are read instead.
+  bits |= shared::kVaryingPosition | shared::kVaryingNormal;
+  if (plan.has(Effect::normalMap)) bits |= shared::kVaryingTangent;
+  return bits;
 }
 
 }  // namespace crosslight

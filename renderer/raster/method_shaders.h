@@ -1,8 +1,10 @@
-// Which shaders a raster method is made of.
+// Which shaders a raster method is made of, and what its stages pass on.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
+#include "effects/effects.h"
 #include "scene/settings.h"
 
 namespace crosslight {
@@ -14,5 +16,10 @@ struct MethodShaders {
 };
 
 MethodShaders shadersOf(const RenderSettings& settings);
+
+// Bits shared::kVarying* that the method's picture needs; its AOVs need all.
+std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan);
+// Those of a depth pass: what an alpha mask reads.
+std::uint32_t depthVaryingsOf(const Plan& plan);
 
 }  // namespace crosslight

@@ -1,10 +1,12 @@
 #include "raster/raster.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
-#include "effects/material_traits.h"
+#include "base/check.h"
+#include "raster/draw_list.h"
+#include "raster/draw_uniforms.h"
 #include "raster/method_shaders.h"
+#include "raster/strip.h"
 
 namespace crosslight {
 
@@ -25,33 +27,26 @@ class Raster final : public Technique {
         plan_(plan),
         settings_(settings),
         buffers_(buffers),
-        layout_(device, sceneBindings({kBindAovs}), sizeof(RasterPush)),
+        lists_(makeDrawLists(scene.flat(), scene.scene(), plan, settings)),
+        uniforms_(device, scene),
+        layout_(device, bindings(), sizeof(RasterPush)),
         set_(device, layout_),
-        commands_(device) {
+        commands_(device),
+        stripRows_(rowsPerStrip(settings.width, settings.height, settings.msaa)) {
     scene_.bind(set_);
+    uniforms_.bind(set_);
     set_.set(kBindAovs, buffers.aovs);
     makeTargets(device);
     makePipelines(device);
     makeIndices(device);
-    sortTransparent();
   }
 
   void renderSample(const SampleRequest& request, Tally& tally) override {
     scene_.setSample(request.offset);
     commands_.begin();
-    if (request.color) {
-      commands_.beginSpan("raster");
-      recordColor(request);
-      commands_.endSpan();
-      commands_.beginSpan("copy");
-      commands_.copyToBuffer(settings_.msaa > 1 ? resolved_ : color_, request.band.firstRow, request.band.rowCount,
-                             buffers_.sampleColor);
-      commands_.endSpan();
-    }
-    if (request.aovs) {
-      commands_.beginSpan("aovs");
-      recordAovs(request);
-      commands_.endSpan();
+    for (const Strip& strip : stripsOf(request.band, stripRows_)) {
+      if (request.color) drawColor(strip, request.band);
+      if (request.aovs) drawAovs(strip, request.band);
     }
     commands_.barrier();
     commands_.submitAndWait();
@@ -67,20 +62,42 @@ class Raster final : public Technique {
   std::map<std::string, std::uint64_t> counters() const override { return {{"draws", draws_}}; }
 
  private:
+  static std::vector<gpu::Binding> bindings() {
+    std::vector<gpu::Binding> all = sceneBindings({kBindAovs});
+    for (const gpu::Binding& binding : DrawUniforms::bindings()) all.push_back(binding);
+    return all;
+  }
+
+  // Of one strip. Where a picture is one strip the film's buffer may itself be the target.
   void makeTargets(const gpu::Device& device) {
-    const std::uint32_t w = settings_.width, h = settings_.height, samples = settings_.msaa;
-    color_ = gpu::Image(device, "color", gpu::ImageFormat::rgba32f, w, h, samples);
+    const std::uint32_t w = settings_.width, h = stripRows_, samples = settings_.msaa;
+    const std::uint64_t pictureBytes = std::uint64_t{sizeof(glm::vec4)} * w * settings_.height;
+    gpu::Image picture;
+    if (h == settings_.height && buffers_.sampleColor.sizeBytes() >= pictureBytes) {
+      picture = gpu::Image::over(device, "sample", buffers_.sampleColor, w, h);
+    }
+    drawsIntoFilm_ = bool(picture);
+    if (!picture) picture = gpu::Image(device, "color", gpu::ImageFormat::rgba32f, w, h);
+    if (samples > 1) multisampled_ = gpu::Image(device, "samples", gpu::ImageFormat::rgba32f, w, h, samples);
+    picture_ = std::move(picture);
     depth_ = gpu::Image(device, "depth", gpu::ImageFormat::depth32f, w, h, samples);
-    if (samples > 1) resolved_ = gpu::Image(device, "resolved color", gpu::ImageFormat::rgba32f, w, h, 1);
     if (!settings_.aovs.empty()) aovDepth_ = gpu::Image(device, "AOV depth", gpu::ImageFormat::depth32f, w, h, 1);
   }
 
-  gpu::GraphicsState baseState(std::string_view vertex, std::string_view fragment) const {
+  gpu::Constants constants(std::uint32_t varyings, std::uint32_t variant = 0) const {
+    gpu::Constants all = constantsOf(plan_, variant);
+    const bool few = scene_.lightCount() <= kFewLights && !settings_.allEffects;
+    all.push_back({kSpecVaryings, settings_.allEffects ? kVaryingAll : varyings});
+    all.push_back({kSpecLightCount, few ? scene_.lightCount() : kManyLights});
+    return all;
+  }
+
+  gpu::GraphicsState baseState(std::string_view vertex, std::string_view fragment, std::uint32_t varyings) const {
     using enum gpu::VertexFormat;
     gpu::GraphicsState s;
     s.vertex = gpu::embeddedShader(vertex);
     if (!fragment.empty()) s.fragment = gpu::embeddedShader(fragment);
-    s.constants = constantsOf(plan_);
+    s.constants = constants(varyings);
     s.buffers = {{sizeof(glm::vec3)}, {sizeof(VertexAttributes)}};
     s.attributes = {{0, 0, 0, float3},
                     {1, 1, offsetof(VertexAttributes, renderNormal), float3},
@@ -94,8 +111,21 @@ class Raster final : public Technique {
 
   // Depth alone; fragments only where an alpha mask cuts.
   gpu::GraphicsState depthState() const {
-    gpu::GraphicsState s = baseState("phong.vert", plan_.has(Effect::alphaMask) ? "mask.frag" : "");
+    gpu::GraphicsState s =
+        baseState("phong.vert", plan_.has(Effect::alphaMask) ? "mask.frag" : "", depthVaryingsOf(plan_));
     s.colorTarget = false;
+    return s;
+  }
+
+  // Where no surface was drawn the depth is still 0. Drawing there costs less than clearing what surfaces cover anyway:
+  // llvmpipe clears formats of 16 bytes pixel by pixel (README).
+  gpu::GraphicsState backgroundState() const {
+    gpu::GraphicsState s;
+    s.vertex = gpu::embeddedShader("background.vert");
+    s.fragment = gpu::embeddedShader("background.frag");
+    s.samples = settings_.msaa;
+    s.depthTest = gpu::DepthTest::equal;
+    s.depthWrite = false;
     return s;
   }
 
@@ -106,8 +136,9 @@ class Raster final : public Technique {
 
   void makePipelines(const gpu::Device& device) {
     const MethodShaders shaders = shadersOf(settings_);
-    gpu::GraphicsState color = baseState(shaders.vertex, shaders.fragment);
-    color.constants = constantsOf(plan_, clampsColors() ? kVariantClampVertexColors : 0u);
+    const std::uint32_t varyings = varyingsOf(settings_, plan_);
+    gpu::GraphicsState color = baseState(shaders.vertex, shaders.fragment, varyings);
+    color.constants = constants(varyings, clampsColors() ? kVariantClampVertexColors : 0u);
     if (settings_.method == Method::wireframe) {
       color.polygonMode = gpu::PolygonMode::line;
       color.depthTest = gpu::DepthTest::greaterOrEqual;
@@ -115,6 +146,8 @@ class Raster final : public Technique {
       fill.depthBiasConstant = kWireBiasConstant;
       fill.depthBiasSlope = kWireBiasSlope;
       depthFill_ = gpu::GraphicsPipeline(device, layout_, fill);
+    } else {
+      background_ = gpu::GraphicsPipeline(device, layout_, backgroundState());
     }
     opaque_ = gpu::GraphicsPipeline(device, layout_, color);
     if (plan_.has(Effect::transparency)) {
@@ -122,12 +155,17 @@ class Raster final : public Technique {
       color.depthWrite = false;
       blended_ = gpu::GraphicsPipeline(device, layout_, color);
     }
-    if (settings_.aovs.empty()) return;
+    if (!settings_.aovs.empty()) makeAovPipelines(device, shaders);
+  }
+
+  void makeAovPipelines(const gpu::Device& device, const MethodShaders& shaders) {
     gpu::GraphicsState depth = depthState();
     depth.vertex = gpu::embeddedShader(shaders.vertex);  // the same program as the pass that tests for equality
+    depth.constants = constants(kVaryingAll, kVariantSeparateSums);
     depth.samples = 1;
     aovDepthPass_ = gpu::GraphicsPipeline(device, layout_, depth);
-    gpu::GraphicsState aov = baseState(shaders.vertex, shaders.aovFragment);
+    gpu::GraphicsState aov = baseState(shaders.vertex, shaders.aovFragment, kVaryingAll);
+    aov.constants = constants(kVaryingAll, kVariantSeparateSums);
     aov.colorTarget = false;
     aov.samples = 1;
     aov.depthTest = gpu::DepthTest::equal;
@@ -147,123 +185,104 @@ class Raster final : public Technique {
     rotatedIndices_ = gpu::Buffer::of(device, "rotated indices", rotated, gpu::useIndex);
   }
 
-  bool isBlended(const DrawRecord& draw) const {
-    return plan_.has(Effect::transparency) && settings_.method != Method::wireframe &&
-           isTransparent(scene_.scene().materials[draw.materialId]);
-  }
-
-  // Transparent triangles from far to near by their centroid: exact unless triangles intersect or overlap cyclically.
-  void sortTransparent() {
-    const FlatScene& flat = scene_.flat();
-    for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
-      const DrawRecord& draw = flat.draws[d];
-      if (!isBlended(draw)) continue;
-      for (std::uint32_t t = 0; t < draw.triangleCount; ++t) sorted_.push_back({draw.firstTriangle + t, d, 0.0f});
-    }
-    for (SortedTriangle& s : sorted_) {
-      const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * s.triangle + k]]; };
-      const glm::vec3 centroid = (corner(0) + corner(1) + corner(2)) / 3.0f;
-      s.distance = glm::dot(centroid, centroid);
-    }
-    std::stable_sort(sorted_.begin(), sorted_.end(),
-                     [](const SortedTriangle& a, const SortedTriangle& b) { return a.distance > b.distance; });
-  }
-
-  void bindMeshes(const gpu::GraphicsPipeline& pipeline) {
+  void drawCalls(const gpu::GraphicsPipeline& pipeline, const std::vector<DrawCall>& calls, std::uint32_t firstPixel) {
+    if (calls.empty()) return;
     commands_.bind(pipeline, set_);
     commands_.bindVertexBuffer(0, scene_.positions());
     commands_.bindVertexBuffer(1, scene_.attributes());
     commands_.bindIndexBuffer(rotatedIndices_ ? rotatedIndices_ : scene_.indices());
-  }
-
-  void drawTriangles(std::uint32_t drawId, std::uint32_t firstTriangle, std::uint32_t count, std::uint32_t firstPixel) {
-    const DrawRecord& draw = scene_.flat().draws[drawId];
-    const Material& material = scene_.scene().materials[draw.materialId];
-    const bool both =
-        material.doubleSided || settings_.twoSided == TwoSided::always || settings_.method == Method::wireframe;
-    commands_.cull(both ? gpu::Commands::Cull::none : gpu::Commands::Cull::back, (draw.flags & kDrawFlipsWinding) != 0);
-    commands_.push(RasterPush{firstTriangle, firstPixel});
-    commands_.drawIndexed(3 * count, 3 * firstTriangle, 0, drawId);
-    ++draws_;
-  }
-
-  void drawAll(const gpu::GraphicsPipeline& pipeline, bool withBlended, std::uint32_t firstPixel) {
-    bindMeshes(pipeline);
-    const FlatScene& flat = scene_.flat();
-    for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
-      if (!withBlended && isBlended(flat.draws[d])) continue;
-      drawTriangles(d, flat.draws[d].firstTriangle, flat.draws[d].triangleCount, firstPixel);
-    }
-  }
-
-  // Runs of neighbours in the sorted order that are neighbours in the mesh too become one draw.
-  void drawSorted() {
-    bindMeshes(blended_);
-    for (std::size_t i = 0; i < sorted_.size();) {
-      std::size_t end = i + 1;
-      while (end < sorted_.size() && sorted_[end].drawId == sorted_[i].drawId &&
-             sorted_[end].triangle == sorted_[end - 1].triangle + 1) {
-        ++end;
+    std::uint32_t offset = 0;  // of the material, as bind() leaves it
+    for (const DrawCall& call : calls) {
+      if (uniforms_.offsetOf(call.materialId) != offset) {
+        offset = uniforms_.offsetOf(call.materialId);
+        commands_.moveWindows(set_, std::span(&offset, 1));
       }
-      drawTriangles(sorted_[i].drawId, sorted_[i].triangle, static_cast<std::uint32_t>(end - i), 0);
-      i = end;
+      commands_.cull(call.cullsBackFaces ? gpu::Commands::Cull::back : gpu::Commands::Cull::none,
+                     (call.flags & kDrawFlipsWinding) != 0);
+      commands_.push(RasterPush{call.firstTriangle, firstPixel, call.drawId, call.materialId, call.flags});
+      commands_.drawIndexed(3 * call.triangleCount, 3 * call.firstTriangle, 0, 0);
+      ++draws_;
     }
   }
 
-  void recordColor(const SampleRequest& request) {
+  void beginStrip(const gpu::RenderTargets& targets, const Strip& strip) {
+    commands_.beginRendering(targets);
+    commands_.viewportRows(strip.firstRow, settings_.height);
+    commands_.scissorRows(strip.rows.firstRow - strip.firstRow, strip.rows.rowCount);
+  }
+
+  void drawColor(const Strip& strip, const Band& band) {
+    commands_.beginSpan("raster");
+    recordColor(strip);
+    commands_.endSpan();
+    if (drawsIntoFilm_) {
+      CL_CHECK_EQ(band.firstRow, 0u);  // a film as large as the picture has one band
+      return;
+    }
+    commands_.beginSpan("copy");
+    const std::uint64_t offset =
+        std::uint64_t{sizeof(glm::vec4)} * settings_.width * (strip.rows.firstRow - band.firstRow);
+    commands_.copyToBuffer(picture_, strip.rows.firstRow - strip.firstRow, strip.rows.rowCount, buffers_.sampleColor,
+                           offset);
+    commands_.endSpan();
+  }
+
+  void recordColor(const Strip& strip) {
     gpu::RenderTargets targets;
+    targets.depth = &depth_;
     if (depthFill_ && !settings_.hiddenLines) {
-      targets.depth = &depth_;
-      commands_.beginRendering(targets);
-      commands_.scissorRows(request.band.firstRow, request.band.rowCount);
-      drawAll(depthFill_, true, 0);
+      beginStrip(targets, strip);
+      drawCalls(depthFill_, lists_.opaque, 0);
       commands_.endRendering();
       commands_.barrier();
       targets.clearDepth = false;
     }
-    targets.color = &color_;
-    targets.resolve = settings_.msaa > 1 ? &resolved_ : nullptr;
-    targets.depth = &depth_;
+    targets.color = multisampled_ ? &multisampled_ : &picture_;
+    targets.resolve = multisampled_ ? &picture_ : nullptr;
     targets.clearValue = glm::vec4(scene_.scene().atmosphere.background, 0.0f);
-    commands_.beginRendering(targets);
-    commands_.scissorRows(request.band.firstRow, request.band.rowCount);
-    drawAll(opaque_, false, 0);
-    if (!sorted_.empty()) drawSorted();
+    if (background_) targets.colorBefore = gpu::ColorBefore::undefined;
+    beginStrip(targets, strip);
+    drawCalls(opaque_, lists_.opaque, 0);
+    if (background_) {
+      commands_.bind(background_, set_);
+      commands_.cull(gpu::Commands::Cull::none, false);
+      commands_.draw(3);
+    }
+    drawCalls(blended_, lists_.blended, 0);
     commands_.endRendering();
   }
 
-  void recordAovs(const SampleRequest& request) {
-    const std::uint32_t firstPixel = request.band.firstRow * request.width;
+  void drawAovs(const Strip& strip, const Band& band) {
+    // Modulo 2^32, as the shader's subtraction is: negative where the band begins before the strip.
+    const std::uint32_t firstPixel = (band.firstRow - strip.firstRow) * settings_.width;
+    commands_.beginSpan("aovs");
     gpu::RenderTargets targets;
     targets.depth = &aovDepth_;
-    commands_.beginRendering(targets);
-    commands_.scissorRows(request.band.firstRow, request.band.rowCount);
-    drawAll(aovDepthPass_, true, firstPixel);
+    beginStrip(targets, strip);
+    drawCalls(aovDepthPass_, lists_.records, firstPixel);
     commands_.endRendering();
     commands_.barrier();
     targets.clearDepth = false;
-    commands_.beginRendering(targets);
-    commands_.scissorRows(request.band.firstRow, request.band.rowCount);
-    drawAll(aovPass_, true, firstPixel);
+    beginStrip(targets, strip);
+    drawCalls(aovPass_, lists_.records, firstPixel);
     commands_.endRendering();
+    commands_.endSpan();
   }
-
-  struct SortedTriangle {
-    std::uint32_t triangle, drawId;
-    float distance;  // squared
-  };
 
   GpuScene& scene_;
   const Plan& plan_;
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
+  DrawLists lists_;
+  DrawUniforms uniforms_;
   gpu::BindingLayout layout_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
-  gpu::Image color_, resolved_, depth_, aovDepth_;
-  gpu::GraphicsPipeline opaque_, blended_, depthFill_, aovDepthPass_, aovPass_;
+  std::uint32_t stripRows_;
+  gpu::Image picture_, multisampled_, depth_, aovDepth_;
+  bool drawsIntoFilm_ = false;
+  gpu::GraphicsPipeline opaque_, blended_, background_, depthFill_, aovDepthPass_, aovPass_;
   gpu::Buffer rotatedIndices_;
-  std::vector<SortedTriangle> sorted_;
   std::uint64_t draws_ = 0;
 };
 

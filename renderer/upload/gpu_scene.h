@@ -24,6 +24,8 @@ class GpuScene {
   std::uint32_t lightCount() const { return static_cast<std::uint32_t>(scene_.lights.size()); }
   const Scene& scene() const { return scene_; }
 
+  const gpu::Buffer& materials() const { return materials_; }
+  const gpu::Buffer& lights() const { return lights_; }
   const gpu::Buffer& positions() const { return positions_; }
   const gpu::Buffer& attributes() const { return attributes_; }
   const gpu::Buffer& indices() const { return indices_; }

@@ -5,6 +5,11 @@
 #include "math/numeric.glsl"
 #include "material/texture.glsl"
 
+// Where the record comes from: a list by index (rays), unless the includer has it at hand (raster, a draw's own).
+#ifndef CL_MATERIAL
+#define CL_MATERIAL(id) materials[id]
+#endif
+
 // Smallest GGX alpha that is evaluated: below it a lobe is narrower than fp32 directions resolve (NoH within 2^-24 of 1).
 const float kSmallestAlpha = 1e-3;
 
@@ -79,7 +84,7 @@ void setMetallicRoughness(MaterialRecord m, vec3 base, vec2 uv0, vec2 uv1, inout
 }
 
 SurfacePoint surfaceAt(SurfaceInput at) {
-  MaterialRecord m = materials[at.materialId];
+  MaterialRecord m = CL_MATERIAL(at.materialId);
   SurfacePoint s;
   s.position = at.renderPos;
   s.model = m.model;

@@ -2,12 +2,10 @@
 // pixel or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
+#include "raster/draw.glsl"
 #include "shade/shade.glsl"
 #include "shade/triangle.glsl"
-#define CL_STAGE in
-#include "raster/varyings.glsl"
-
-layout(push_constant, scalar) uniform PushBlock { RasterPush pushed; };
+#include "raster/fragment_in.glsl"
 
 #ifdef CL_AOV
 layout(early_fragment_tests) in;
@@ -16,27 +14,15 @@ layout(set = 0, binding = kBindAovs, scalar) writeonly buffer AovBlock { AovReco
 layout(location = 0) out vec4 outColor;  // premultiplied
 #endif
 
-float lightVisibility(uint lightIndex) { return 1.0; }
-
 SurfaceInput surfaceInput() {
-  SurfaceInput at;
-  at.renderPos = renderPos;
-  at.normal = renderNormal;
-  at.tangent = renderTangent;
-  at.uv0 = uvs.xy;
-  at.uv1 = uvs.zw;
-  at.color = vertexColor;
-  at.materialId = draws[drawId].materialId;
-  at.frontFacing = gl_FrontFacing;
-  at.colored = (draws[drawId].flags & kDrawHasColors) != 0u;
-  at.bothSides = false;
+  SurfaceInput at = interpolatedInput();
 #if defined(CL_AOV) || defined(CL_CENTROID)
   TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
-  at.geometricNormal = triangleNormal(c.v0, c.v1, c.v2, (draws[drawId].flags & kDrawFlipsWinding) != 0u);
+  at.geometricNormal = triangleNormal(c.v0, c.v1, c.v2, (pushed.drawFlags & kDrawFlipsWinding) != 0u);
 #else
   // Only the fallback where the interpolated normal vanishes: the screen-space derivative is good enough for that.
-  vec3 facing = safeNormalize(cross(dFdx(renderPos), dFdy(renderPos)), vec3(0.0, 0.0, 1.0));
-  bool away = dot(facing, viewDirection(renderPos)) < 0.0;
+  vec3 facing = safeNormalize(cross(dFdx(at.renderPos), dFdy(at.renderPos)), vec3(0.0, 0.0, 1.0));
+  bool away = dot(facing, viewDirection(at.renderPos)) < 0.0;
   at.geometricNormal = away == gl_FrontFacing ? -facing : facing;
 #endif
   return at;
@@ -45,39 +31,48 @@ SurfaceInput surfaceInput() {
 LightSums lighting(SurfacePoint s) {
 #ifdef CL_SUMS_MODE
   bool front = gl_FrontFacing || !CL_HAS(twoSided);
-  return LightSums(front ? frontAmbient : backAmbient, front ? frontDiffuse : backDiffuse,
-                   front ? frontSpecular : backSpecular, front ? frontFresnel : backFresnel);
+  LightSums sums = LightSums(front ? frontAmbient : backAmbient, vec3(0.0), vec3(0.0), vec3(0.0));
+  if (kManySums) {
+    sums.diffuse = front ? frontDiffuse : backDiffuse;
+    sums.specular = front ? frontSpecular : backSpecular;
+    if (kSumsHaveFresnel) sums.fresnel = front ? frontFresnel : backFresnel;
+  }
+  return sums;
 #else
 #ifdef CL_CENTROID
   TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
   s.position = (c.v0 + c.v1 + c.v2) / 3.0;
   s.n = s.ng;
 #endif
-  return illuminate(s, viewDirection(s.position), 0u, frame.lightCount);
+  return illuminate(s, viewDirection(s.position), 0u, drawnLightCount());
 #endif
 }
 
 #ifndef CL_AOV
 vec3 litColor(SurfaceInput at, SurfacePoint s) {
-  bool clamps = (specVariant & kVariantClampVertexColors) != 0u;
 #ifdef CL_SUMS_MODE
-  if (clamps) {  // the vertex stage has composed the color: only what textures do is left
-    MaterialRecord m = materials[at.materialId];
-    vec3 color = lighting(s).ambient;
+  LightSums sums = lighting(s);
+  vec3 color = sums.ambient;  // as the vertex stage composed it
+  if (kClampsColors) {        // only what textures do is left
+    MaterialRecord m = drawMaterial;
     if (CL_HAS(baseColorTexture) && hasTexture(m.baseColorTexture)) color *= sampleTexture(m.baseColorTexture, at.uv0, at.uv1).rgb;
     if (CL_HAS(emissiveTexture) && hasTexture(m.emissiveTexture)) color += s.emission;
-    return color;
+  } else if (kColorsMayVary) {
+    vec3 composed = sumOf(compose(s, sums, frame.ambient));
+    if (colorsVary(drawMaterial, at.colored)) color = composed;
   }
-#endif
+  return color;
+#else
   vec3 color = sumOf(compose(s, lighting(s), frame.ambient));
-  return clamps ? clamp(color, 0.0, 1.0) : color;
+  return (specVariant & kVariantClampVertexColors) != 0u ? clamp(color, 0.0, 1.0) : color;
+#endif
 }
 #endif
 
 #ifdef CL_AOV
 void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
   uint pixel = uint(gl_FragCoord.y) * frame.resolution.x + uint(gl_FragCoord.x) - pushed.firstPixel;
-  DrawRecord draw = draws[drawId];
+  DrawRecord draw = draws[pushed.drawId];
   AovRecord aov;
   aov.depth = dot(s.position, frame.cameraForward);
   aov.position = s.position;
@@ -99,7 +94,7 @@ void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
 void main() {
   SurfaceInput at = surfaceInput();
   if (CL_HAS(alphaMask)) {
-    MaterialRecord m = materials[at.materialId];
+    MaterialRecord m = drawMaterial;
     if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.colored ? at.color.a : 1.0))) discard;
   }
   SurfacePoint s = surfaceAt(at);

@@ -1,10 +1,12 @@
-// Vertex stage of every raster method. With CL_SUMS_MODE it also lights the vertex, front and back.
+// Vertex stage of every raster method. With CL_SUMS_MODE it also lights the vertex, front and back: to a color where
+// the surface's colors are constant over a triangle, else to sums of light that the fragments multiply by their colors.
 //
 // specVariant bit 0 (kVariantClampVertexColors), OpenGL 1.x 2.13.6: the lit color of each side, without textures, is
-// clamped to [0,1] here and travels as the first of the sums, the others zero. The fragments multiply it by the base
-// color texture (GL_MODULATE) and add emission that a texture varies, which OpenGL does not have.
+// clamped to [0,1] here. The fragments multiply it by the base color texture (GL_MODULATE) and add emission that a
+// texture varies, which OpenGL does not have.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
+#include "raster/draw.glsl"
 #define CL_UNTEXTURED
 #include "shade/shade.glsl"
 #define CL_STAGE out
@@ -20,43 +22,44 @@ layout(location = 5) in vec4 inColor;
 // Depth passes and shading passes must agree bit for bit (DepthTest::equal).
 invariant gl_Position;
 
-float lightVisibility(uint lightIndex) { return 1.0; }
-
 #ifdef CL_SUMS_MODE
 LightSums lightVertex(bool frontFacing) {
   SurfaceInput at = SurfaceInput(inPosition, inNormal, safeNormalize(inNormal, vec3(0.0, 0.0, 1.0)), inTangent, inUv0,
-                                 inUv1, inColor, draws[gl_InstanceIndex].materialId, frontFacing,
-                                 (draws[gl_InstanceIndex].flags & kDrawHasColors) != 0u, false);
+                                 inUv1, inColor, pushed.materialId, frontFacing, (pushed.drawFlags & kDrawHasColors) != 0u, false);
   SurfacePoint s = surfaceAt(at);
-  LightSums sums = illuminate(s, viewDirection(inPosition), 0u, frame.lightCount);
-  if ((specVariant & kVariantClampVertexColors) == 0u) return sums;
-  if (CL_HAS(emissiveTexture) && hasTexture(materials[at.materialId].emissiveTexture)) s.emission = vec3(0.0);
-  vec3 color = clamp(sumOf(compose(s, sums, frame.ambient)), 0.0, 1.0);
-  return LightSums(color, vec3(0.0), vec3(0.0), vec3(0.0));
+  LightSums sums = illuminate(s, viewDirection(inPosition), 0u, drawnLightCount());
+  bool whole = !kSeparateSums && (kClampsColors || !colorsVary(drawMaterial, at.colored));
+  if (kClampsColors && CL_HAS(emissiveTexture) && hasTexture(drawMaterial.emissiveTexture)) s.emission = vec3(0.0);
+  vec3 color = sumOf(compose(s, sums, frame.ambient));
+  if (kClampsColors) color = clamp(color, 0.0, 1.0);
+  if (whole) sums.ambient = color;
+  return sums;
 }
 #endif
 
 void main() {
   gl_Position = frame.clipFromRender * vec4(inPosition, 1.0);
-  renderPos = inPosition;
-  renderNormal = inNormal;
-  renderTangent = inTangent;
-  uvs = vec4(inUv0, inUv1);
-  vertexColor = inColor;
-  drawId = uint(gl_InstanceIndex);
+  if (CL_VARIES(Position)) renderPos = inPosition;
+  if (CL_VARIES(Normal)) renderNormal = inNormal;
+  if (CL_VARIES(Tangent)) renderTangent = inTangent;
+  if (CL_VARIES(Uvs)) uvs = vec4(inUv0, inUv1);
+  if (CL_VARIES(Color)) vertexColor = inColor;
 #ifdef CL_SUMS_MODE
   LightSums front = lightVertex(true);
   frontAmbient = front.ambient;
-  frontDiffuse = front.diffuse;
-  frontSpecular = front.specular;
-  frontFresnel = front.fresnel;
-  backAmbient = backDiffuse = backSpecular = backFresnel = vec3(0.0);
+  if (kManySums) {
+    frontDiffuse = front.diffuse;
+    frontSpecular = front.specular;
+    if (kSumsHaveFresnel) frontFresnel = front.fresnel;
+  }
   if (CL_HAS(twoSided)) {
     LightSums back = lightVertex(false);
     backAmbient = back.ambient;
-    backDiffuse = back.diffuse;
-    backSpecular = back.specular;
-    backFresnel = back.fresnel;
+    if (kManySums) {
+      backDiffuse = back.diffuse;
+      backSpecular = back.specular;
+      if (kSumsHaveFresnel) backFresnel = back.fresnel;
+    }
   }
 #endif
 }

@@ -6,6 +6,11 @@
 #include "light/light.glsl"
 #include "illum/illumination.glsl"
 
+// As CL_MATERIAL in surface.glsl.
+#ifndef CL_LIGHT
+#define CL_LIGHT(index) lights[index]
+#endif
+
 float lightVisibility(uint lightIndex);
 
 // What all lights of a batch bring to a point, before the surface's colors.
@@ -26,7 +31,7 @@ struct ShadedParts {
 LightSums illuminate(SurfacePoint s, vec3 wo, uint firstLight, uint lightCount) {
   LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   for (uint i = 0u; i < lightCount; ++i) {
-    LightRecord light = lights[firstLight + i];
+    LightRecord light = CL_LIGHT(firstLight + i);
     LightSample at = sampleLight(light, s.position);
     float visible = lightVisibility(i) * at.falloff;
     Lobe lobe = evaluateModel(s, wo, at.wi);

@@ -125,10 +125,6 @@ struct TracePush {
   uint maxDepth;
   uint writeAovs;  // 1: the primary level writes AovRecords
 };
-struct RasterPush {
-  uint firstTriangle;  // of the draw: added to gl_PrimitiveID
-  uint firstPixel;     // AOV pass: image pixel index of the band's first pixel
-};
 struct FilmPush {
   uint pixelCount;
   uint firstPixel;

@@ -1,0 +1,8 @@
+#version 460
+// What is seen where nothing is.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/scene_bindings.glsl"
+
+layout(location = 0) out vec4 outColor;
+
+void main() { outColor = vec4(frame.background, 0.0); }
