@@ -16,7 +16,7 @@ COMPARED = {
     "load": {("teapots", "tinygltf"), ("knot_2k", "tinygltf")},
     "bvh": {(part, peer) for part in ("tree", "whole") for peer in ("embree_low", "embree_medium")},
     "rays": {(kind, peer) for kind in ("primary", "shadow", "bounce") for peer in ("embree1", "embree8")},
-    "raster": {(method, "osmesa") for method in ("flat", "gouraud", "phong")},
+    "raster": {(method, peer) for method in ("flat", "gouraud", "phong") for peer in ("osmesa", "osmesaFloat")},
     "start": {("warm", "cold")},
 }
 PEER_OF = {"bvh": "embree", "rays": "embree", "raster": "osmesa"}

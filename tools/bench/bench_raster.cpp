@@ -1,8 +1,10 @@
 // One frame by each raster method against OSMesa on the same mesh, wall time of both: ours from recording to the
-// picture in a buffer (float RGBA), OSMesa's from the clear to glFinish (8-bit RGBA: less to write, its users' usual
-// format). That both draw the same picture is checked first.
+// picture in a buffer (float RGBA), OSMesa's from the clear to glFinish, into 8-bit RGBA (a quarter to write, its
+// users' usual format) and into float RGBA (the same work as ours). That all draw the same picture is checked first.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "base/time.h"
 #include "bench/bench.h"
@@ -102,14 +104,13 @@ struct Difference {
   std::size_t pixelsApart = 0;
 };
 
-Difference differenceOf(const std::vector<glm::vec4>& ours, const std::vector<std::uint8_t>& theirs) {
+Difference differenceOf(const std::vector<glm::vec4>& ours, const std::vector<glm::vec4>& theirs) {
   Difference result;
   double sum = 0;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     bool close = true;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double mine = std::clamp<double>(ours[i][static_cast<int>(c)], 0.0, 1.0);
-      const double difference = mine - theirs[4 * i + c] / 255.0;
+    for (int c = 0; c < 3; ++c) {
+      const double difference = std::clamp<double>(ours[i][c], 0.0, 1.0) - static_cast<double>(theirs[i][c]);
       close = close && std::abs(difference) <= kOneStep;
       sum += difference * difference;
     }
@@ -125,35 +126,53 @@ double coverageOf(const std::vector<glm::vec4>& pixels) {
   return static_cast<double>(lit) / static_cast<double>(pixels.size());
 }
 
+struct Peer {
+  std::unique_ptr<OsmesaPeer> gl;
+  const char* suffix;
+};
+constexpr std::pair<GlPixels, const char*> kFormats[] = {{GlPixels::bytes, ".osmesa"},
+                                                         {GlPixels::floats, ".osmesaFloat"}};
+
+void checkPicture(Bench& bench, const std::string& name, OurFrame& frame, const std::vector<glm::vec4>& theirs) {
+  const std::vector<glm::vec4> pixels = frame.pixels();
+  const Difference d = differenceOf(pixels, theirs);
+  const double coverage = coverageOf(pixels), most = kMostAtEdges * static_cast<double>(pixels.size());
+  bench.report.addCheck(name, static_cast<double>(d.pixelsApart) <= most && coverage > 0.1,
+                        {{"pixelsApart", d.pixelsApart}, {"rmse", d.rmse}, {"coverage", coverage}});
+}
+
+void timeFrames(Bench& bench, const std::string& ours, OurFrame& frame, GlShading shading,
+                const std::vector<Peer>& peers) {
+  std::vector<Contender> contenders{[&] { return frame.draw(ours); }};
+  frame.draw(ours);
+  for (const Peer& peer : peers) {
+    const std::string theirs = ours + peer.suffix;
+    contenders.push_back([&peer, shading, theirs] { return Measured{{theirs, peer.gl->frame(shading)}}; });
+    peer.gl->frame(shading);
+    checkPicture(bench, theirs + ".picture", frame, peer.gl->pixels());
+  }
+  const Rounds rounds = interleave(contenders, bench.rounds);
+  bench.report.addTime(ours, rounds);
+  bench.report.addTime(ours + ".device", rounds);
+  for (const Peer& peer : peers) bench.report.compare(ours, ours + peer.suffix, rounds, Quantity::time);
+}
+
 void drawFrames(Bench& bench, std::uint32_t triangles, std::uint32_t size) {
   const std::string prefix = "raster." + shortCount(triangles) + ".";
   const Scene scene = loadScene(writeKnotScene(bench.scratch, triangles));
   const FlatScene flat = flattenScene(scene, renderOrigin(scene.cameras[0]), false);
   std::vector<glm::vec3> normals;
   for (const shared::VertexAttributes& a : flat.attributes) normals.push_back(a.renderNormal);
-  std::optional<OsmesaPeer> osmesa;
-  if (osmesaAvailable()) {
-    osmesa.emplace(glSceneOf(scene, flat, normals, OurFrame::settingsFor(Method::flat, size)), size, size);
-    bench.report.addCheck(prefix + "osmesa", true, {{"renderer", osmesa->renderer()}});
+  std::vector<Peer> peers;
+  for (const auto& [format, suffix] : kFormats) {
+    if (!osmesaAvailable()) break;
+    const GlScene gl = glSceneOf(scene, flat, normals, OurFrame::settingsFor(Method::flat, size));
+    peers.push_back({std::make_unique<OsmesaPeer>(gl, size, size, format), suffix});
   }
+  if (!peers.empty()) bench.report.addCheck(prefix + "osmesa", true, {{"renderer", peers.front().gl->renderer()}});
   for (const Row& row : kRows) {
-    const std::string ours = prefix + row.name, theirs = ours + ".osmesa";
     OurFrame frame(bench.device(), scene, row.method, size);
-    std::vector<Contender> contenders{[&] { return frame.draw(ours); }};
-    if (osmesa) {
-      contenders.push_back([&] { return Measured{{theirs, osmesa->frame(row.shading)}}; });
-      frame.draw(ours);
-      osmesa->frame(row.shading);
-      const std::vector<glm::vec4> pixels = frame.pixels();
-      const Difference d = differenceOf(pixels, osmesa->pixels());
-      const double coverage = coverageOf(pixels), most = kMostAtEdges * static_cast<double>(pixels.size());
-      bench.report.addCheck(ours + ".picture", static_cast<double>(d.pixelsApart) <= most && coverage > 0.1,
-                            {{"pixelsApart", d.pixelsApart}, {"rmse", d.rmse}, {"coverage", coverage}});
-    }
-    const Rounds rounds = interleave(contenders, bench.rounds);
-    bench.report.addTime(ours, rounds);
-    bench.report.addTime(ours + ".device", rounds);
-    if (osmesa) bench.report.compare(ours, theirs, rounds, Quantity::time);
+    timeFrames(bench, prefix + row.name, frame, row.shading, peers);
   }
 }
 

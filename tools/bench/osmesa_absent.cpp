@@ -12,10 +12,10 @@ namespace {
 bool osmesaAvailable() { return false; }
 
 struct OsmesaPeer::Impl {};
-OsmesaPeer::OsmesaPeer(const GlScene&, std::uint32_t, std::uint32_t) { absent(); }
+OsmesaPeer::OsmesaPeer(const GlScene&, std::uint32_t, std::uint32_t, GlPixels) { absent(); }
 OsmesaPeer::~OsmesaPeer() = default;
 std::string OsmesaPeer::renderer() const { absent(); }
 double OsmesaPeer::frame(GlShading) { absent(); }
-const std::vector<std::uint8_t>& OsmesaPeer::pixels() const { absent(); }
+std::vector<glm::vec4> OsmesaPeer::pixels() const { absent(); }
 
 }  // namespace crosslight::bench

@@ -98,19 +98,31 @@ bool osmesaAvailable() { return true; }
 
 struct OsmesaPeer::Impl {
   OSMesaContext context = nullptr;
-  std::vector<std::uint8_t> pixels;
+  std::uint32_t width = 0, height = 0;
+  GlPixels format = GlPixels::bytes;
+  std::vector<std::uint8_t> bytes;
+  std::vector<glm::vec4> floats;
   GLuint program = 0;
   GLsizei indexCount = 0;
+
+  void makeCurrent() {
+    const bool isFloat = format == GlPixels::floats;
+    void* pixels = isFloat ? static_cast<void*>(floats.data()) : bytes.data();
+    CL_CHECK(OSMesaMakeCurrent(context, pixels, isFloat ? GL_FLOAT : GL_UNSIGNED_BYTE, static_cast<GLsizei>(width),
+                               static_cast<GLsizei>(height)) != 0);
+  }
 };
 
-OsmesaPeer::OsmesaPeer(const GlScene& scene, std::uint32_t width, std::uint32_t height)
+OsmesaPeer::OsmesaPeer(const GlScene& scene, std::uint32_t width, std::uint32_t height, GlPixels format)
     : impl_(std::make_unique<Impl>()) {
   constexpr GLint kDepthBits = 24;
-  impl_->pixels.resize(std::size_t{4} * width * height);
+  impl_->width = width, impl_->height = height, impl_->format = format;
+  const std::size_t count = std::size_t{width} * height;
+  if (format == GlPixels::bytes) impl_->bytes.resize(4 * count);
+  if (format == GlPixels::floats) impl_->floats.resize(count);
   impl_->context = OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
   CL_CHECK(impl_->context != nullptr);
-  CL_CHECK(OSMesaMakeCurrent(impl_->context, impl_->pixels.data(), GL_UNSIGNED_BYTE, static_cast<GLsizei>(width),
-                             static_cast<GLsizei>(height)) != 0);
+  impl_->makeCurrent();
   OSMesaPixelStore(OSMESA_Y_UP, 0);
   glViewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
   glEnable(GL_DEPTH_TEST);
@@ -140,6 +152,7 @@ std::string OsmesaPeer::renderer() const {
 }
 
 double OsmesaPeer::frame(GlShading shading) {
+  impl_->makeCurrent();
   const Stopwatch watch;
   glUseProgram(shading == GlShading::phong ? impl_->program : 0);
   glShadeModel(shading == GlShading::flat ? GL_FLAT : GL_SMOOTH);
@@ -151,6 +164,14 @@ double OsmesaPeer::frame(GlShading shading) {
   return ms;
 }
 
-const std::vector<std::uint8_t>& OsmesaPeer::pixels() const { return impl_->pixels; }
+std::vector<glm::vec4> OsmesaPeer::pixels() const {
+  if (impl_->format == GlPixels::floats) return impl_->floats;
+  std::vector<glm::vec4> pixels;
+  for (std::size_t i = 0; i + 3 < impl_->bytes.size(); i += 4) {
+    const auto channel = [&](std::size_t c) { return static_cast<float>(impl_->bytes[i + c]) / 255.0f; };
+    pixels.emplace_back(channel(0), channel(1), channel(2), channel(3));
+  }
+  return pixels;
+}
 
 }  // namespace crosslight::bench

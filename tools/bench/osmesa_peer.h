@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,17 +33,20 @@ enum class GlShading {
   phong,    // GLSL: the same formula at every fragment
 };
 
-// One at a time, on one thread. Frames are 8-bit RGBA, as most users of OSMesa have them.
+// RGBA of the frames: 8 bits per channel, as most users of OSMesa have them, or 32-bit floats, as ours are.
+enum class GlPixels { bytes, floats };
+
+// One at a time, on one thread: the one made or asked for a frame last is current.
 class OsmesaPeer {
  public:
-  OsmesaPeer(const GlScene& scene, std::uint32_t width, std::uint32_t height);
+  OsmesaPeer(const GlScene& scene, std::uint32_t width, std::uint32_t height, GlPixels format);
   ~OsmesaPeer();
 
   std::string renderer() const;  // GL_RENDERER and GL_VERSION
   // Clear, draw and finish; milliseconds of wall time.
   double frame(GlShading shading);
-  // Of the last frame: RGBA, row 0 on top.
-  const std::vector<std::uint8_t>& pixels() const;
+  // Of the last frame: RGBA in [0, 1], row 0 on top.
+  std::vector<glm::vec4> pixels() const;
 
  private:
   struct Impl;
