@@ -10,9 +10,10 @@
 namespace crosslight::accel {
 namespace {
 
-// A spatial split is looked for where the children of the other overlap by more than this share of the tree's area:
-// section 4.5 of the paper.
-constexpr double kOverlap = 1e-5;
+// A spatial split is looked for where the children of the other overlap by more than this share of the tree's area
+// (section 4.5 of the paper), and of the range's own: less is seldom gained back, and most ranges of even meshes have
+// less. Walls among small things cost the same with 0.2 as with 0, and 11 % more with 0.4.
+constexpr double kOverlapOfTree = 1e-5, kOverlapOfRange = 0.2;
 
 double overlap(const Box& a, const Box& b) {
   Box common;
@@ -40,8 +41,7 @@ class Splitter {
     Box sides[2];
     if (byObject.found) boxesOfSides(bins_, binCount, byObject, sides[0], sides[1]);
     SpatialSplit bySpace;
-    if (!byObject.found || overlap(sides[0], sides[1]) > kOverlap * rootArea_)
-      bySpace = chooseSpatialSplit(triangles_, range);
+    if (!byObject.found || overlaps(range, sides[0], sides[1])) bySpace = chooseSpatialSplit(triangles_, range);
     double cost = byObject.found ? byObject.cost : double{kInfinity};
     if (bySpace.found) cost = std::min(cost, bySpace.cost);
     if (staysLeaf(plan_.options, range.count(), range.depth, cost)) return false;
@@ -57,6 +57,10 @@ class Splitter {
   }
 
  private:
+  bool overlaps(const SpatialRange& range, const Box& a, const Box& b) const {
+    return overlap(a, b) > std::max(kOverlapOfTree * rootArea_, kOverlapOfRange * range.bounds.halfArea());
+  }
+
   std::uint32_t splitObjects(SpatialRange& range, const Split& split, SpatialRange (&children)[2]) const {
     const std::uint32_t larger = std::max(split.lowerCount, range.count() - split.lowerCount);
     const bool byArea = split.found && fitsDepth(range.depth, larger);

@@ -6,32 +6,33 @@
 namespace crosslight::accel {
 namespace {
 
-constexpr int kSpatialBins = 16;
+constexpr int kMostBins = 16;
 
 struct SpatialBins {
-  Box boxes[kSpatialBins];
-  std::uint32_t enter[kSpatialBins] = {}, leave[kSpatialBins] = {};
-  float planes[kSpatialBins + 1];  // planes[i] and [i + 1] bound bin i
-  float scale = 0;                 // bins per length
+  Box boxes[kMostBins];
+  std::uint32_t enter[kMostBins] = {}, leave[kMostBins] = {};
+  int count = 0;
+  float planes[kMostBins + 1];  // planes[i] and [i + 1] bound bin i
+  float scale = 0;              // bins per length
 };
 
 // False: the axis is too short for so many different planes.
 bool setPlanes(const Box& bounds, int axis, SpatialBins& bins) {
   const double low = bounds.lower[axis], extent = double{bounds.upper[axis]} - low;
-  for (int i = 0; i <= kSpatialBins; ++i) {
-    bins.planes[i] = static_cast<float>(low + extent * i / kSpatialBins);
+  for (int i = 0; i <= bins.count; ++i) {
+    bins.planes[i] = static_cast<float>(low + extent * i / bins.count);
     if (i > 0 && !(bins.planes[i] > bins.planes[i - 1])) return false;
   }
-  bins.planes[kSpatialBins] = bounds.upper[axis];
-  bins.scale = static_cast<float>(kSpatialBins / extent);
+  bins.planes[bins.count] = bounds.upper[axis];
+  bins.scale = static_cast<float>(bins.count / extent);
   return bins.scale <= std::numeric_limits<float>::max();
 }
 
 // The bin that holds x, by a guess that rounding may put one off.
 int binOf(const SpatialBins& bins, float x) {
-  int bin = static_cast<int>(std::clamp((x - bins.planes[0]) * bins.scale, 0.0f, kSpatialBins - 1.0f));
+  int bin = static_cast<int>(std::clamp((x - bins.planes[0]) * bins.scale, 0.0f, static_cast<float>(bins.count - 1)));
   while (bin > 0 && x < bins.planes[bin]) --bin;
-  while (bin + 1 < kSpatialBins && x >= bins.planes[bin + 1]) ++bin;
+  while (bin + 1 < bins.count && x >= bins.planes[bin + 1]) ++bin;
   return bin;
 }
 
@@ -57,11 +58,11 @@ void addEdge(Float4 a, Float4 b, int axis, const SpatialBins& bins, int first, i
 void addReference(const BvhTriangles& triangles, const Reference& r, int axis, SpatialBins& bins) {
   const int first = binOf(bins, r.lower[axis]);
   int last = first;
-  while (last + 1 < kSpatialBins && r.upper[axis] > bins.planes[last + 1]) ++last;
+  while (last + 1 < bins.count && r.upper[axis] > bins.planes[last + 1]) ++last;
   ++bins.enter[first];
   ++bins.leave[last];
   if (first == last) return bins.boxes[first].add(r);
-  Box parts[kSpatialBins];
+  Box parts[kMostBins];
   const Corners corners = cornersOf(triangles, r.index());
   const auto corner = [&](int k) {
     const glm::vec3& p = corners.points[k % 3];
@@ -76,12 +77,12 @@ void addReference(const BvhTriangles& triangles, const Reference& r, int axis, S
 }
 
 void improve(const SpatialBins& bins, int axis, const SpatialRange& range, double area, SpatialSplit& best) {
-  double upperCost[kSpatialBins] = {};
-  Box uppers[kSpatialBins];
-  std::uint32_t upperCounts[kSpatialBins] = {};
+  double upperCost[kMostBins] = {};
+  Box uppers[kMostBins];
+  std::uint32_t upperCounts[kMostBins] = {};
   Box upper;
   std::uint32_t upperCount = 0;
-  for (int i = kSpatialBins - 1; i > 0; --i) {
+  for (int i = bins.count - 1; i > 0; --i) {
     upper.add(bins.boxes[i]);
     upperCount += bins.leave[i];
     uppers[i] = upper;
@@ -90,7 +91,7 @@ void improve(const SpatialBins& bins, int axis, const SpatialRange& range, doubl
   }
   Box lower;
   std::uint32_t lowerCount = 0;
-  for (int i = 0; i + 1 < kSpatialBins; ++i) {
+  for (int i = 0; i + 1 < bins.count; ++i) {
     lower.add(bins.boxes[i]);
     lowerCount += bins.enter[i];
     const std::uint32_t most = std::max(lowerCount, upperCounts[i + 1]);
@@ -110,6 +111,7 @@ SpatialSplit chooseSpatialSplit(const BvhTriangles& triangles, const SpatialRang
   if (!(area > 0) || range.budget == 0) return best;
   for (int axis = 0; axis < 3; ++axis) {
     SpatialBins bins;
+    bins.count = static_cast<int>(usefulBins(range.count(), kMostBins));
     if (!setPlanes(range.bounds, axis, bins)) continue;
     for (const Reference& r : range.references) addReference(triangles, r, axis, bins);
     improve(bins, axis, range, area, best);
