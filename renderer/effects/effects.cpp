@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -113,6 +114,10 @@ class Analysis {
     add(Effect::shapes, "shapes", any,
         any ? fmt::format("{} analytic shapes are traced", scene_.shapes.size())
             : (traced_ ? "the scene has no analytic shape" : "raster draws the shapes' meshes"));
+    const auto isDrawn = [&](const MeshInstance& m) { return !traced_ || !m.replacedByShape; };
+    const auto mesh = std::find_if(scene_.instances.begin(), scene_.instances.end(), isDrawn);
+    const bool meshes = mesh != scene_.instances.end() || (!traced_ && !scene_.shapes.empty());
+    add(Effect::triangles, "triangles", meshes, meshes ? "meshes are drawn" : "no mesh is drawn");
   }
 
   void materialRules() {

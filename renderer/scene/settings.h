@@ -8,9 +8,10 @@
 namespace crosslight {
 
 enum class Method { wireframe, flat, gouraud, phong, whitted };
-enum class FlatVertex { first, last, centroid };  // where flat shading evaluates lighting
-enum class PixelFilter { box, tent, gaussian };   // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
-enum class TwoSided { material, always };         // per material (glTF's doubleSided), or everything
+enum class FlatVertex { first, last, centroid };               // where flat shading evaluates lighting
+enum class PixelFilter { box, tent, gaussian };                // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
+enum class KernelFamily { automatic, perLane, wide, packet };  // of the ray kernels: same hits, other speed
+enum class TwoSided { material, always };                      // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
   Method method = Method::phong;
@@ -22,9 +23,10 @@ struct RenderSettings {
   std::uint32_t msaa = 1;      // raster only: coverage samples 1, 2, 4, 8
   std::uint32_t maxDepth = 5;  // whitted: ray segments after the primary one; 0 is direct light only
   std::uint64_t seed = 0;
-  bool shadows = true;     // whitted
-  bool reflection = true;  // whitted
-  bool refraction = true;  // whitted; off: transmitted light goes straight on
+  KernelFamily kernel = KernelFamily::automatic;  // rays only
+  bool shadows = true;                            // whitted
+  bool reflection = true;                         // whitted
+  bool refraction = true;                         // whitted; off: transmitted light goes straight on
   bool infiniteViewer = false;
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;

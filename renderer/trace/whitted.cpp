@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <future>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -18,30 +17,31 @@ using namespace shared;
 
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;          // local_size_x of the kernels
-constexpr std::uint32_t kChunkPixels = 1u << 17;  // ray nodes are 88 bytes: a chunk's first level is 11 MB
-constexpr std::uint32_t kNodesPerPixel = 4;       // room for the tree, on average; a fuller chunk is halved
-constexpr std::uint32_t kLightBatch = 16;         // lights whose visibility is kept at once
+constexpr std::uint32_t kChunkRays = 1u << 18;  // camera rays at once
+constexpr std::uint32_t kNodesPerPixel = 4;     // room for the tree, on average; a fuller chunk is halved
+constexpr std::uint32_t kFewestNodes = 4096;    // a small image may still have deep trees
 
 class Whitted final : public Technique {
  public:
   Whitted(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings,
-          FilmBuffers& buffers)
+          FilmBuffers& buffers, std::shared_ptr<KernelPipelines> kernels)
       : device_(device),
         scene_(scene),
-        plan_(plan),
         settings_(settings),
         buffers_(buffers),
-        layout_(device,
-                sceneBindings({kBindRayNodes, kBindHits, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs}),
-                sizeof(TracePush)),
-        set_(device, layout_),
+        branches_(crosslight::branches(plan)),
+        kernels_(std::move(kernels)),
+        set_(device, kernels_->layout()),
         commands_(device) {
-    makePipelines();
     makeBuffers();
     scene_.bind(set_);
+    set_.set(kBindRays, raysBuffer_);
+    set_.set(kBindRayTexels, raysBuffer_);
     set_.set(kBindRayNodes, nodes_);
+    set_.set(kBindNodeTexels, nodes_);
     set_.set(kBindHits, hits_);
+    set_.set(kBindHitTexels, hits_);
+    set_.set(kBindRest, rest_);
     set_.set(kBindVisibility, visibility_);
     set_.set(kBindCounters, buffers.counters);
     set_.set(kBindSampleColor, buffers.sampleColor);
@@ -50,14 +50,11 @@ class Whitted final : public Technique {
 
   void renderSample(const SampleRequest& request, Tally& tally) override {
     scene_.setSample(request.offset);
-    const std::uint32_t pixels = request.band.rowCount * request.width;
-    for (std::uint32_t first = 0; first < pixels;) {
-      const std::uint32_t count = std::min(chunk_, pixels - first);
-      if (traceChunk(request, first, count, tally)) {
-        first += count;
-      } else {
-        halveChunk(count);
-      }
+    rays_["primary"] += std::uint64_t{request.band.rowCount} * request.width;
+    const std::uint32_t rays = cameraRayCount(request.width, request.band.rowCount);
+    for (std::uint32_t first = 0; first < rays;) {
+      const std::uint32_t count = std::min(chunk_, rays - first);
+      if (traceChunk(request, first, count, tally)) first += count;
       throwIfInterrupted();
     }
   }
@@ -70,47 +67,45 @@ class Whitted final : public Technique {
   std::map<std::string, std::uint64_t> rays() const override { return rays_; }
 
   std::map<std::string, std::uint64_t> counters() const override {
-    return {{"rayLevels", levels_}, {"chunksRepeated", repeated_}, {"traversalsCapped", capped_}};
+    return {{"rayLevels", levels_},
+            {"chunksRepeated", repeated_},
+            {"traversalsCapped", capped_},
+            {"packetsGivenUp", gaveUp_}};
   }
 
  private:
-  void makePipelines() {
-    // Each in a thread of its own: a driver takes 100 ms and more for the larger ones.
-    const auto start = [&](const char* name) {
-      return std::async(std::launch::async, [this, name] {
-        return gpu::ComputePipeline(device_, layout_, gpu::embeddedShader(name), constantsOf(plan_));
-      });
-    };
-    auto intersect = start("intersect.comp");
-    auto shade = start("shade.comp");
-    auto generate = start("generate.comp");
-    auto gather = start("gather.comp");
-    if (plan_.has(Effect::shadows)) shadow_ = start("shadow.comp").get();
-    generate_ = generate.get();
-    intersect_ = intersect.get();
-    shade_ = shade.get();
-    gather_ = gather.get();
-  }
-
-  bool branches() const {
-    return plan_.has(Effect::reflection) || plan_.has(Effect::refraction) || plan_.has(Effect::transparency);
-  }
-
   void makeBuffers() {
-    const std::uint64_t imagePixels = std::uint64_t{settings_.width} * settings_.height;
-    chunk_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(kChunkPixels, imagePixels));
-    const std::uint32_t perPixel = branches() && settings_.maxDepth > 0 ? kNodesPerPixel : 1;
-    // A small image may still have deep trees: 4096 nodes at least.
+    chunk_ = std::min(kChunkRays, cameraRayCount(settings_.width, settings_.height));
+    const bool tree = branches_ && settings_.maxDepth > 0;
     const std::uint64_t fits = device_.info().maxStorageBufferBytes / sizeof(RayNode);
-    capacity_ = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(std::max(std::uint64_t{chunk_} * perPixel, std::uint64_t{4096}), fits));
-    const std::uint64_t visibilities =
-        plan_.has(Effect::shadows) ? std::uint64_t{capacity_} * std::min(kLightBatch, std::max(scene_.lightCount(), 1u))
-                                   : 1;
-    visibilityBatch_ = std::min(kLightBatch, std::max(scene_.lightCount(), 1u));
-    nodes_ = gpu::Buffer(device_, "ray nodes", std::uint64_t{capacity_} * sizeof(RayNode), gpu::useStorage);
-    hits_ = gpu::Buffer(device_, "hits", std::uint64_t{capacity_} * sizeof(HitRecord), gpu::useStorage);
-    visibility_ = gpu::Buffer(device_, "visibility", visibilities * sizeof(float), gpu::useStorage);
+    const std::uint64_t wanted =
+        std::max(std::uint64_t{chunk_} * (tree ? kNodesPerPixel : 1), std::uint64_t{kFewestNodes});
+    capacity_ = static_cast<std::uint32_t>(std::min(wanted, fits));
+    batch_ = lightBatch(scene_.lightCount());
+    const bool shadows = !kernels_->choice().shadow.empty();
+    const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t size) {
+      return gpu::Buffer(device_, name, count * size, gpu::useStorage | gpu::useUniformTexel);
+    };
+    raysBuffer_ = buffer("rays", tree ? capacity_ : 1, sizeof(RayRecord));
+    nodes_ = buffer("ray nodes", branches_ ? capacity_ : 1, sizeof(RayNode));
+    hits_ = buffer("hits", capacity_, sizeof(HitRecord));
+    rest_ = gpu::Buffer(device_, "groups that packets gave up",
+                        (kRestGroups + capacity_ / kRaysPerGroup + 1) * sizeof(std::uint32_t),
+                        gpu::useStorage | gpu::useIndirect);
+    visibility_ = buffer("visibility", shadows ? std::uint64_t{capacity_} * batch_ : 1, sizeof(float));
+  }
+
+  // Is something missing from what a chunk left? Then it is set up to succeed the next time.
+  bool mustRepeat(const std::array<std::uint32_t, kCounterCount>& counters, std::uint32_t chunkRays) {
+    if (counters[kCounterOverflow] > 0) {
+      halveChunk(chunkRays);
+      return true;
+    }
+    if (counters[kCounterGaveUp] == 0 || packetsGiveUp_) return false;
+    ++repeated_;
+    packetsGiveUp_ = true;
+    logVerbose("some packets of rays part too soon: their rays go one by one");
+    return true;
   }
 
   void halveChunk(std::uint32_t count) {
@@ -123,11 +118,33 @@ class Whitted final : public Technique {
     logVerbose(fmt::format("ray tree store is full: going on with chunks of {} pixels", chunk_));
   }
 
-  void dispatch(const gpu::ComputePipeline& pipeline, const TracePush& push, const char* span, std::uint32_t rows = 1) {
-    commands_.beginSpan(span);
+  void record(const gpu::ComputePipeline& pipeline, const TracePush& push) {
     commands_.bind(pipeline, set_);
     commands_.push(push);
-    commands_.dispatch((push.nodeCount + kGroupSize - 1) / kGroupSize, rows);
+  }
+
+  // `kernel` empty: no such pass.
+  void dispatch(const std::string& kernel, const TracePush& push, const char* span) {
+    if (kernel.empty()) return;
+    commands_.beginSpan(span);
+    record(kernels_->get(kernel), push);
+    commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
+    commands_.endSpan();
+    commands_.barrier();
+  }
+
+  // With packets; then, one ray per lane, those that packets gave up.
+  void dispatch(const std::string& kernel, const std::string& rest, const TracePush& push, const char* span) {
+    if (!rest.empty()) {
+      commands_.fill(rest_, 0, sizeof(std::uint32_t), 0u);
+      commands_.fill(rest_, sizeof(std::uint32_t), 2 * sizeof(std::uint32_t), 1u);
+      commands_.barrier();
+    }
+    dispatch(kernel, push, span);
+    if (rest.empty() || !packetsGiveUp_) return;
+    commands_.beginSpan(span);
+    record(kernels_->getRest(rest), push);
+    commands_.dispatchIndirect(rest_, 0);
     commands_.endSpan();
     commands_.barrier();
   }
@@ -137,7 +154,7 @@ class Whitted final : public Technique {
     tally.add(commands_.spans());
   }
 
-  // False when the store overflowed: nothing counts then.
+  // False when the chunk has to be repeated: nothing counts then.
   bool traceChunk(const SampleRequest& request, std::uint32_t first, std::uint32_t count, Tally& tally) {
     std::array<std::uint32_t, kCounterCount> start{};
     buffers_.counters.read(0, std::as_writable_bytes(std::span(start)));
@@ -145,11 +162,13 @@ class Whitted final : public Technique {
     reset[kCounterRayNodes] = count;
     reset[kCounterOverflow] = reset[kCounterShadowRays] = reset[kCounterReflection] = 0;
     reset[kCounterRefraction] = reset[kCounterPassThrough] = reset[kCounterCapped] = 0;
+    reset[kCounterGaveUp] = 0;
     buffers_.counters.write(0, std::as_bytes(std::span(reset)));
 
     TracePush push{};
-    push.firstPixel = request.band.firstRow * request.width;
-    push.pixelOffset = first;
+    push.firstRow = request.band.firstRow;
+    push.bandRows = request.band.rowCount;
+    push.firstInTiles = first;
     push.nodeCapacity = capacity_;
     push.maxDepth = settings_.maxDepth;
     push.writeAovs = request.aovs ? 1u : 0u;
@@ -160,45 +179,54 @@ class Whitted final : public Technique {
       traceLevel(push, levels.empty(), tally);
       levels.push_back(push);
       buffers_.counters.read(0, std::as_writable_bytes(std::span(now)));
-      if (now[kCounterOverflow] > 0) return false;
+      if (mustRepeat(now, count)) return false;
       push.firstNode += push.nodeCount;
       push.nodeCount = now[kCounterRayNodes] - push.firstNode;
     }
     gather(levels, tally);
-    count_(now, count, levels.size());
+    count_(now, levels.size());
     return true;
   }
 
   void traceLevel(TracePush push, bool primary, Tally& tally) {
+    const KernelChoice& choice = kernels_->choice();
     commands_.begin();
     commands_.barrier();
-    if (primary) dispatch(generate_, push, "generate");
-    dispatch(intersect_, push, "intersect");
+    if (primary)
+      dispatch(choice.camera, choice.cameraRest, push, "intersect");
+    else
+      dispatch(choice.secondary, push, "intersect");
+    dispatch(choice.shapes, push, "shapes");
     const std::uint32_t lights = scene_.lightCount();
-    for (std::uint32_t first = 0; first == 0 || first < lights; first += visibilityBatch_) {
+    for (std::uint32_t first = 0; first == 0 || first < lights; first += batch_) {
       push.firstLight = first;
-      push.lightCount = std::min(visibilityBatch_, lights - first);
-      if (shadow_ && push.lightCount > 0) dispatch(shadow_, push, "shadow", push.lightCount);
-      dispatch(shade_, push, "shade");
+      push.lightCount = std::min(batch_, lights - first);
+      for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
+        dispatch(choice.shadow, choice.shadowRest, push, "shadow");
+      }
+      dispatch("shade.comp", push, "shade");
     }
     submit(tally);
   }
 
   void gather(const std::vector<TracePush>& levels, Tally& tally) {
+    if (!branches_) return;
     commands_.begin();
     commands_.barrier();
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level) dispatch(gather_, *level, "gather");
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+      dispatch(kernels_->choice().gather, *level, "gather");
+    }
     submit(tally);
   }
 
-  void count_(const std::array<std::uint32_t, kCounterCount>& counters, std::uint32_t pixels, std::size_t levels) {
-    rays_["primary"] += pixels;
+  void count_(const std::array<std::uint32_t, kCounterCount>& counters, std::size_t levels) {
     rays_["shadow"] += counters[kCounterShadowRays];
     rays_["reflection"] += counters[kCounterReflection];
     rays_["refraction"] += counters[kCounterRefraction];
     rays_["passThrough"] += counters[kCounterPassThrough];
     levels_ = std::max<std::uint64_t>(levels_, levels);
     capped_ += counters[kCounterCapped];
+    gaveUp_ += counters[kCounterGaveUp];
     if (counters[kCounterCapped] > 0) {
       logWarning("some rays met the limit of traversal steps; what lies beyond it is missing from the image");
     }
@@ -206,24 +234,36 @@ class Whitted final : public Technique {
 
   const gpu::Device& device_;
   GpuScene& scene_;
-  const Plan& plan_;
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
-  gpu::BindingLayout layout_;
+  bool branches_;
+  std::shared_ptr<KernelPipelines> kernels_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
-  gpu::ComputePipeline generate_, intersect_, shadow_, shade_, gather_;
-  gpu::Buffer nodes_, hits_, visibility_;
-  std::uint32_t chunk_ = 0, capacity_ = 0, visibilityBatch_ = 1;
+  gpu::Buffer raysBuffer_, nodes_, hits_, visibility_, rest_;
+  bool packetsGiveUp_ = false;  // some do in this scene: what they leave is done again
+  std::uint32_t chunk_ = 0, capacity_ = 0, batch_ = 1;
   std::map<std::string, std::uint64_t> rays_;
-  std::uint64_t levels_ = 0, repeated_ = 0, capped_ = 0;
+  std::uint64_t levels_ = 0, repeated_ = 0, capped_ = 0, gaveUp_ = 0;
 };
 
 }  // namespace
 
+std::uint32_t cameraRayCount(std::uint32_t width, std::uint32_t height) {
+  const auto tiles = [](std::uint32_t pixels) { return (pixels + kTileSize - 1) / kTileSize; };
+  return tiles(width) * tiles(height) * kTileSize * kTileSize;
+}
+
+std::unique_ptr<Technique> makeWhittedWith(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device,
+                                           GpuScene& scene, const Plan& plan, const RenderSettings& settings,
+                                           FilmBuffers& buffers) {
+  return std::make_unique<Whitted>(device, scene, plan, settings, buffers, std::move(kernels));
+}
+
 std::unique_ptr<Technique> makeWhitted(const gpu::Device& device, GpuScene& scene, const Plan& plan,
                                        const RenderSettings& settings, FilmBuffers& buffers) {
-  return std::make_unique<Whitted>(device, scene, plan, settings, buffers);
+  auto kernels = std::make_shared<KernelPipelines>(device, scene.scene(), plan, settings);
+  return makeWhittedWith(std::move(kernels), device, scene, plan, settings, buffers);
 }
 
 }  // namespace crosslight

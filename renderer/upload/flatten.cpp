@@ -154,7 +154,7 @@ class Flattener {
     record.params = shape.params;
     flat_.shapes.push_back(record);
     flat_.draws.push_back({flat_.triangleCount(), 0u, static_cast<std::uint32_t>(shape.material), shape.instanceId, 0u,
-                           place.mirrors ? shared::kDrawFlipsWinding : 0u});
+                           place.mirrors ? shared::kDrawFlipsWinding : 0u, 0u, 0u});
     if (!bounded) {
       CL_CHECK(shape.kind == ShapeKind::plane);  // what shaders/accel/bvh.glsl relies on
       ++flat_.unboundedShapeCount;
@@ -247,6 +247,9 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
   };
   const Bvh triangles = buildBvh(triangleBounds(flat));
   append(triangles, result);
+  WideBvh wide = widen(triangles);
+  result.wideNodes = std::move(wide.nodes);
+  result.wideDepth = wide.maxDepth;
   const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
   for (const std::uint32_t t : triangles.order) {
     const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "accel/bvh.h"
+#include "accel/wide_bvh.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "structs.h"
@@ -36,6 +36,8 @@ struct FlatBvh {
   std::vector<shared::BvhNode> nodes;  // the triangles' root is 0
   std::uint32_t shapeRoot = 0;
   std::vector<shared::BvhPrimitive> primitives;
+  std::vector<WideNode> wideNodes;  // the triangles' tree, eight children per node
+  std::uint32_t wideDepth = 0;
 };
 FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings);
 

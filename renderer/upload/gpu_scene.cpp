@@ -14,18 +14,19 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   const glm::dvec3 origin = renderOrigin(scene.cameras[static_cast<std::size_t>(settings.camera)]);
   const MaterialRecords materials = makeMaterialRecords(scene);
   frame_ = gpu::Buffer(device, "frame constants", sizeof(FrameRecord), gpu::useUniform | gpu::useHostWrite);
-  materials_ = gpu::Buffer::of(device, "materials", materials.materials, gpu::useStorage);
-  lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage);
-  draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage);
+  materials_ = gpu::Buffer::of(device, "materials", materials.materials, gpu::useStorage | gpu::useUniformTexel);
+  lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage | gpu::useUniformTexel);
+  draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage | gpu::useUniformTexel);
   positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useStorage | gpu::useVertex);
   attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
   indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useStorage | gpu::useIndex);
-  shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage);
+  shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage | gpu::useUniformTexel);
   texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
   const FlatBvh none;
   const FlatBvh& tree = bvh ? *bvh : none;
   shapeRoot_ = tree.shapeRoot;
   nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
+  wideNodes_ = gpu::Buffer::of(device, "wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
   primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
 }
 
@@ -48,16 +49,34 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindTexels, texels_);
   set.set(kBindBvhNodes, nodes_);
   set.set(kBindBvhPrimitives, primitives_);
+  set.set(kBindWideNodes, wideNodes_);
+  set.set(kBindMaterialTexels, materials_);
+  set.set(kBindLightTexels, lights_);
+  set.set(kBindDrawTexels, draws_);
+  set.set(kBindShapeTexels, shapes_);
 }
 
-std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots) {
+std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots,
+                                        std::initializer_list<std::uint32_t> moreTexelSlots) {
   using enum gpu::BindingType;
-  std::vector<gpu::Binding> bindings{
-      {kBindFrame, uniformBuffer},       {kBindMaterials, storageBuffer},       {kBindLights, storageBuffer},
-      {kBindDraws, storageBuffer},       {kBindPositions, storageBuffer},       {kBindAttributes, texelBufferFloat4},
-      {kBindIndices, storageBuffer},     {kBindShapes, storageBuffer},          {kBindTexels, texelBufferFloat4},
-      {kBindBvhNodes, texelBufferUint4}, {kBindBvhPrimitives, texelBufferUint4}};
+  std::vector<gpu::Binding> bindings{{kBindFrame, uniformBuffer},
+                                     {kBindMaterials, storageBuffer},
+                                     {kBindLights, storageBuffer},
+                                     {kBindDraws, storageBuffer},
+                                     {kBindPositions, storageBuffer},
+                                     {kBindAttributes, texelBufferFloat4},
+                                     {kBindIndices, storageBuffer},
+                                     {kBindShapes, storageBuffer},
+                                     {kBindTexels, texelBufferFloat4},
+                                     {kBindBvhNodes, texelBufferUint4},
+                                     {kBindBvhPrimitives, texelBufferUint4},
+                                     {kBindWideNodes, texelBufferUint4},
+                                     {kBindMaterialTexels, texelBufferUint4},
+                                     {kBindLightTexels, texelBufferUint4},
+                                     {kBindDrawTexels, texelBufferUint4},
+                                     {kBindShapeTexels, texelBufferUint4}};
   for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});
+  for (const std::uint32_t slot : moreTexelSlots) bindings.push_back({slot, texelBufferUint4});
   return bindings;
 }
 

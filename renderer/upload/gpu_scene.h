@@ -36,11 +36,12 @@ class GpuScene {
   FlatScene flat_;
   std::uint32_t shapeRoot_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
-      primitives_;
+      primitives_, wideNodes_;
 };
 
-// The slots that GpuScene binds, for layouts, and storage buffers of the technique's own.
-std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots = {});
+// The slots that GpuScene binds, for layouts, and buffers of the technique's own: storage, or texels of 4 words.
+std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots = {},
+                                        std::initializer_list<std::uint32_t> moreTexelSlots = {});
 // The plan as specialisation constants, with the variant of one shader.
 gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant = 0);
 

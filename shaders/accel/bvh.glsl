@@ -3,25 +3,16 @@
 #ifndef CROSSLIGHT_BVH_GLSL
 #define CROSSLIGHT_BVH_GLSL
 #include "math/numeric.glsl"
+#include "accel/ray.glsl"
 #include "accel/triangle.glsl"
 #include "accel/shape.glsl"
 
 layout(set = 0, binding = kBindCounters, scalar) buffer CounterBlock { uint counters[]; };
 
-struct Ray {
-  vec3 origin;
-  vec3 direction;
-  float tMin;
-  float tMax;
-  uint from;  // slot of the triangle that the ray leaves, which it cannot meet again; kNoHit: none
-};
-
 const HitRecord kMiss = HitRecord(0.0, kNoHit, 0.0, 0.0);
 const uint kEmptyChild = kBvhLeaf;   // a leaf of no primitives
 const uint kWalkDone = 0xfffffffeu;  // not a child: index bits beyond any list
 const uint kLargestWalk = 60000u;    // Mesa 22.3 ends loops silently at 65,535 iterations: stop before, and count it
-
-Ray rayOf(RayNode node) { return Ray(node.origin, node.direction, node.tMin, node.tMax, node.from); }
 
 struct BoxTest {
   bool hit;
@@ -57,7 +48,7 @@ PrimitiveTexels fetchPrimitive(uint slot) {
 }
 
 ShapeHit hitShapeInstance(uint index, Ray ray) {
-  ShapeRecord s = shapes[index];
+  ShapeRecord s = shapeOf(index);
   return hitShape(s.kind, s.params, s.objectFromRender * (ray.origin - s.renderCenter),
                   s.objectFromRender * ray.direction, ray.tMin, ray.tMax);
 }
@@ -72,7 +63,7 @@ bool isOneSided(uint drawId);
 // Shapes without bounds stand outside of the tree, first in the list. Planes are the only ones (the host checks), so the
 // other kinds' code is not inlined once more here.
 ShapeHit hitUnboundedShape(uint index, Ray ray) {
-  ShapeRecord s = shapes[index];
+  ShapeRecord s = shapeOf(index);
   return hitPlane(s.params, s.objectFromRender * (ray.origin - s.renderCenter), s.objectFromRender * ray.direction,
                   ray.tMin, ray.tMax);
 }
@@ -102,7 +93,7 @@ void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
   uint shape = p.id & ~kPrimitiveIsShape;
   float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
   ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
-  bool back = dot(h.n, shapes[shape].objectFromRender * ray.direction) > 0.0;
+  bool back = dot(h.n, shapeOf(shape).objectFromRender * ray.direction) > 0.0;
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
   if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), p.id);
 }
@@ -112,7 +103,7 @@ void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
     float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
     ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
     uint id = kPrimitiveIsShape | i;
-    bool cut = cutBackFaces && isOneSided(shapes[i].drawId) && dot(s.n, shapes[i].objectFromRender * ray.direction) > 0.0;
+    bool cut = cutBackFaces && isOneSided(shapeOf(i).drawId) && dot(s.n, shapeOf(i).objectFromRender * ray.direction) > 0.0;
     if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
   }
 }
@@ -196,7 +187,7 @@ bool isValid(Ray ray) {
 
 // Triangles and shapes have a tree each: devices that run both sides of every branch would else pay for all shapes'
 // equations at every triangle.
-HitRecord closestHit(Ray ray, bool cutBackFaces) {
+HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   Closest best = Closest(kMiss, kNoId);
   if (!isValid(ray)) return kMiss;
   WalkRay w = walkRayOf(ray);
@@ -210,18 +201,25 @@ HitRecord closestHit(Ray ray, bool cutBackFaces) {
     leaveLeaf(count, walk);
   }
   countCapped(walk);
-  if (CL_HAS(shapes)) {
-    considerUnboundedShapes(ray, cutBackFaces, best);
-    walk = Walk(frame.shapeRoot, 0, 0u);
-    while (goesOn(walk)) {
-      walkToLeaf(w, boundOf(best, ray), walk);
-      uint count = leafCount(walk);
-      uint firstSlot = walk.next & kBvhFirstMask;
-      for (uint i = 0u; i < count; ++i) considerShape(firstSlot + i, ray, cutBackFaces, best);
-      leaveLeaf(count, walk);
-    }
-    countCapped(walk);
+  return best.hit;
+}
+
+// Nearest shape, or the triangle met so far where no shape is nearer; of a triangle and a shape that are equally near,
+// the triangle counts (ids of shapes are greater).
+HitRecord closestShape(Ray ray, bool cutBackFaces, HitRecord sofar) {
+  Closest best = Closest(sofar, sofar.primitive == kNoHit ? kNoId : 0u);
+  if (!isValid(ray)) return sofar;
+  considerUnboundedShapes(ray, cutBackFaces, best);
+  WalkRay w = walkRayOf(ray);
+  Walk walk = Walk(frame.shapeRoot, 0, 0u);
+  while (goesOn(walk)) {
+    walkToLeaf(w, boundOf(best, ray), walk);
+    uint count = leafCount(walk);
+    uint firstSlot = walk.next & kBvhFirstMask;
+    for (uint i = 0u; i < count; ++i) considerShape(firstSlot + i, ray, cutBackFaces, best);
+    leaveLeaf(count, walk);
   }
+  countCapped(walk);
   return best.hit;
 }
 
@@ -245,7 +243,7 @@ float lightPassedUnbounded(Ray ray) {
   float passed = 1.0;
   for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
     ShapeHit s = hitUnboundedShape(i, ray);
-    if (s.hit) passed *= passedByShape(shapes[i].drawId, s.uv);
+    if (s.hit) passed *= passedByShape(shapeOf(i).drawId, s.uv);
   }
   return passed;
 }
@@ -256,8 +254,8 @@ float lightPassed(Ray ray) {
   float passed = 1.0;
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
-  Walk walk = Walk(0u, 0, 0u);
-  while (goesOn(walk)) {
+  Walk walk = Walk(CL_HAS(triangles) ? 0u : kWalkDone, 0, 0u);
+  while (CL_HAS(triangles) && goesOn(walk)) {
     walkToLeaf(w, ray.tMax, walk);
     uint count = leafCount(walk);
     uint firstSlot = walk.next & kBvhFirstMask;

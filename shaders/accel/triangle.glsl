@@ -27,27 +27,30 @@ struct TriangleHit {
   bool back;  // the ray meets the side on which the corners run clockwise
 };
 
-TriangleHit hitTriangle(vec3 origin, RayShear ray, vec3 v0, vec3 v1, vec3 v2, float tMin, float tMax) {
-  vec3 a = rotateToLast(v0 - origin, ray.axis);
-  vec3 b = rotateToLast(v1 - origin, ray.axis);
-  vec3 c = rotateToLast(v2 - origin, ray.axis);
-  precise vec2 pa = a.xy - ray.shear.xy * a.z;
-  precise vec2 pb = b.xy - ray.shear.xy * b.z;
-  precise vec2 pc = c.xy - ray.shear.xy * c.z;
+// Corners relative to the ray's origin and rotated already: packets whose rays share the axis rotate once for all.
+TriangleHit hitRotated(vec3 a, vec3 b, vec3 c, vec3 shear, float tMin, float tMax) {
+  precise vec2 pa = a.xy - shear.xy * a.z;
+  precise vec2 pb = b.xy - shear.xy * b.z;
+  precise vec2 pc = c.xy - shear.xy * c.z;
   precise float u = pc.x * pb.y - pc.y * pb.x;
   precise float v = pa.x * pc.y - pa.y * pc.x;
   precise float w = pb.x * pa.y - pb.y * pa.x;
   float det = u + v + w;
   bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
   float inverse = 1.0 / det;
-  float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * inverse;
+  float t = (u * a.z + v * b.z + w * c.z) * shear.z * inverse;
   TriangleHit result;
   result.hit = inside && det != 0.0 && t > tMin && t <= tMax;
   result.t = t;
   result.b1 = v * inverse;
   result.b2 = w * inverse;
   // Seen along +z a counter-clockwise triangle has det > 0; seen along -z the projection is mirrored.
-  result.back = (det > 0.0) != (ray.shear.z > 0.0);
+  result.back = (det > 0.0) != (shear.z > 0.0);
   return result;
+}
+
+TriangleHit hitTriangle(vec3 origin, RayShear ray, vec3 v0, vec3 v1, vec3 v2, float tMin, float tMax) {
+  return hitRotated(rotateToLast(v0 - origin, ray.axis), rotateToLast(v1 - origin, ray.axis),
+                    rotateToLast(v2 - origin, ray.axis), ray.shear, tMin, tMax);
 }
 #endif

@@ -7,7 +7,7 @@
 
 // Where the record comes from: a list by index (rays), unless the includer has it at hand (raster, a draw's own).
 #ifndef CL_MATERIAL
-#define CL_MATERIAL(id) materials[id]
+#define CL_MATERIAL(id) materialOf(id)
 #endif
 
 // Smallest GGX alpha that is evaluated: below it a lobe is narrower than fp32 directions resolve (NoH within 2^-24 of 1).

@@ -8,7 +8,7 @@
 
 // As CL_MATERIAL in surface.glsl.
 #ifndef CL_LIGHT
-#define CL_LIGHT(index) lights[index]
+#define CL_LIGHT(index) lightOf(index)
 #endif
 
 float lightVisibility(uint lightIndex);

@@ -19,28 +19,39 @@
   X(10, reflection)              \
   X(11, refraction)              \
   X(12, absorption)              \
-  X(13, shapes)
+  X(13, shapes)                  \
+  X(14, triangles)
 
 CL_SHARED_BEGIN
-CL_CONST uint kBindFrame = 0;           // uniform FrameRecord
-CL_CONST uint kBindMaterials = 1;       // MaterialRecord[]
-CL_CONST uint kBindLights = 2;          // LightRecord[]
-CL_CONST uint kBindDraws = 3;           // DrawRecord[]
-CL_CONST uint kBindPositions = 4;       // vec3[], render space
-CL_CONST uint kBindAttributes = 5;      // texel buffer, RGBA32F, 4 per vertex
-CL_CONST uint kBindIndices = 6;         // uint[3 * triangles]
-CL_CONST uint kBindShapes = 7;          // ShapeRecord[]
-CL_CONST uint kBindTexels = 8;          // texel buffer, RGBA32F, linear
-CL_CONST uint kBindBvhNodes = 9;        // texel buffer, RGBA32UI, 4 per node
-CL_CONST uint kBindBvhPrimitives = 10;  // texel buffer, RGBA32UI, 3 per primitive
-CL_CONST uint kBindRayNodes = 11;       // RayNode[]
-CL_CONST uint kBindHits = 12;           // HitRecord[], one per ray node
-CL_CONST uint kBindVisibility = 13;     // float[nodes of the level * lights of the batch]
-CL_CONST uint kBindCounters = 14;       // uint[kCounterCount]
-CL_CONST uint kBindSampleColor = 15;    // vec4[pixels of the band]: one sample of the picture
-CL_CONST uint kBindAovs = 16;           // AovRecord[pixels of the band], or one dummy
-CL_CONST uint kBindFilm = 17;           // FilmPixel[pixels of the band]
-CL_CONST uint kBindFilmParts = 18;      // FilmParts[pixels of the band], or one dummy
+CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
+CL_CONST uint kBindMaterials = 1;        // MaterialRecord[]
+CL_CONST uint kBindLights = 2;           // LightRecord[]
+CL_CONST uint kBindDraws = 3;            // DrawRecord[]
+CL_CONST uint kBindPositions = 4;        // vec3[], render space
+CL_CONST uint kBindAttributes = 5;       // texel buffer, RGBA32F, 4 per vertex
+CL_CONST uint kBindIndices = 6;          // uint[3 * triangles]
+CL_CONST uint kBindShapes = 7;           // ShapeRecord[]
+CL_CONST uint kBindTexels = 8;           // texel buffer, RGBA32F, linear
+CL_CONST uint kBindBvhNodes = 9;         // texel buffer, RGBA32UI, 4 per node
+CL_CONST uint kBindBvhPrimitives = 10;   // texel buffer, RGBA32UI, 3 per primitive
+CL_CONST uint kBindRays = 11;            // RayRecord[]
+CL_CONST uint kBindHits = 12;            // HitRecord[], one per ray
+CL_CONST uint kBindVisibility = 13;      // float[nodes of the level * lights of the batch]
+CL_CONST uint kBindCounters = 14;        // uint[kCounterCount]
+CL_CONST uint kBindSampleColor = 15;     // vec4[pixels of the band]: one sample of the picture
+CL_CONST uint kBindAovs = 16;            // AovRecord[pixels of the band], or one dummy
+CL_CONST uint kBindFilm = 17;            // FilmPixel[pixels of the band]
+CL_CONST uint kBindWideNodes = 19;       // texel buffer, RGBA32UI, 16 per node
+CL_CONST uint kBindMaterialTexels = 20;  // the records once more, as RGBA32UI texels: one load brings 16 bytes
+CL_CONST uint kBindLightTexels = 21;
+CL_CONST uint kBindDrawTexels = 22;
+CL_CONST uint kBindShapeTexels = 23;
+CL_CONST uint kBindHitTexels = 24;  // kBindHits, kBindRays, kBindRayNodes, to be read: RGBA32UI
+CL_CONST uint kBindRayTexels = 25;
+CL_CONST uint kBindNodeTexels = 26;
+CL_CONST uint kBindRest = 28;       // groups whose packet gave up, behind the dispatch arguments that count them
+CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
+CL_CONST uint kBindFilmParts = 18;  // FilmParts[pixels of the band], or one dummy
 
 // Specialisation constants; their defaults in the shaders are "everything".
 CL_CONST uint kSpecModels = 0;                 // bit i: illumination model i may occur
@@ -49,6 +60,12 @@ CL_CONST uint kSpecShapes = 2;                 // bit i: shape kind i may occur
 CL_CONST uint kSpecEffects = 3;                // bits of CL_EFFECTS
 CL_CONST uint kSpecVariant = 4;                // of one shader; documented there
 CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' variant
+CL_CONST uint kVariantOrthographic = 2u;       // camera kernels: rays do not begin at one point
+CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the groups that kBindRest lists
+CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
+
+// The list at kBindRest: the three words of an indirect dispatch, one unused, then the groups.
+CL_CONST uint kRestGroups = 4u;
 
 // Counters that shaders add to.
 CL_CONST uint kCounterRayNodes = 0;  // ray nodes allocated
@@ -60,27 +77,37 @@ CL_CONST uint kCounterPassThrough = 5;
 CL_CONST uint kCounterNonfinite = 6;
 CL_CONST uint kCounterFirstNonfinite = 7;  // 2^32 - 1 - (first image pixel whose sample is not finite); 0: none
 CL_CONST uint kCounterCapped = 8;          // traversals that met the stack's or the loop's limit
+CL_CONST uint kCounterGaveUp = 9;          // packets that left their rays to be done one by one
 CL_CONST uint kCounterCount = 16;
 
-// One ray of the ray tree. Children are added back into their parent level by level.
-struct RayNode {
+// A ray that is stored: mirrored, refracted or passed on, at the place of its node. Camera rays are computed where they
+// are needed. Three texels.
+struct RayRecord {
   vec3 origin;  // render space
   float tMin;
   vec3 direction;  // camera rays: component along cameraForward is 1, so t is the depth; others unit
   float tMax;
-  vec3 weight;       // share of this node's value in its parent
-  uint pixel;        // within the band
-  vec3 value;        // radiance that arrives along the ray; complete after the gather pass
-  uint kind;         // kRay*
+  uint from;    // BVH slot of the triangle that the ray leaves; kNoHit: none, or a shape
+  uint medium;  // material that the ray travels in, or kNoRayNode for the surrounding
+  uint kind;    // kRay*
+  uint depth;   // rays before it
+};
+CL_SIZE(RayRecord, 48)
+
+// What comes back along a ray. Three texels; kept only when the plan's surfaces send rays on.
+struct RayNode {
+  vec3 value;   // radiance; once gathered with the children's and times the weight
+  float alpha;  // coverage of what the ray meets
+  vec3 weight;  // share of the value in the parent's
+  uint unused;
   uint reflected;    // node of the reflected child, or kNoRayNode
   uint transmitted;  // node of the refracted or straight-through child, or kNoRayNode
-  uint medium;       // material that the ray travels in, or kNoRayNode for the surrounding
-  uint depth;
-  float alpha;  // coverage of what the ray meets
-  uint from;    // BVH slot of the triangle that the ray leaves; kNoHit: none, or a shape
+  uint unused1, unused2;
 };
-CL_SIZE(RayNode, 88)
+CL_SIZE(RayNode, 48)
 CL_CONST uint kNoRayNode = 0xffffffffu;
+CL_CONST uint kNoPixel = 0xffffffffu;
+CL_CONST uint kTileSize = 8u;  // pixels: camera rays are listed tile by tile
 CL_CONST uint kRayPrimary = 0u;
 CL_CONST uint kRayReflection = 1u;
 CL_CONST uint kRayRefraction = 2u;
@@ -115,12 +142,14 @@ CL_SIZE(FilmParts, 60)
 
 // Push constants of the compute kernels.
 struct TracePush {
-  uint firstNode;    // of the level
-  uint nodeCount;    // of the level
-  uint firstLight;   // of the batch
-  uint lightCount;   // of the batch
-  uint firstPixel;   // image pixel index of the band's first pixel
-  uint pixelOffset;  // generate: first pixel of the chunk, within the band
+  uint firstNode;     // of the level; 0: the camera's rays
+  uint nodeCount;     // of the level
+  uint firstLight;    // of the batch
+  uint lightCount;    // of the batch
+  uint lightInBatch;  // shadow: which one
+  uint firstRow;      // of the band, in the image
+  uint bandRows;
+  uint firstInTiles;  // generate: first ray of the chunk, in the band's tile order
   uint nodeCapacity;
   uint maxDepth;
   uint writeAovs;  // 1: the primary level writes AovRecords

@@ -32,6 +32,14 @@ layout(set = 0, binding = kBindTexels) uniform samplerBuffer texels;
 layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
 layout(set = 0, binding = kBindBvhPrimitives) uniform usamplerBuffer bvhPrimitives;
 
+layout(set = 0, binding = kBindWideNodes) uniform usamplerBuffer wideNodes;
+layout(set = 0, binding = kBindMaterialTexels) uniform usamplerBuffer materialTexels;
+layout(set = 0, binding = kBindLightTexels) uniform usamplerBuffer lightTexels;
+layout(set = 0, binding = kBindDrawTexels) uniform usamplerBuffer drawTexels;
+layout(set = 0, binding = kBindShapeTexels) uniform usamplerBuffer shapeTexels;
+
+#include "record_texels.glsl"
+
 VertexAttributes attributesOf(uint vertex) {
   int at = int(4u * vertex);
   vec4 normal = texelFetch(attributeTexels, at);

@@ -19,6 +19,9 @@ struct VertexAttributes {
 };
 CL_SIZE(VertexAttributes, 64)
 
+// Materials, lights, draws and shapes are read as storage buffers where the index is the same for a whole draw, and as
+// RGBA32UI texel buffers by kernels (scene_bindings.glsl takes them apart): hence whole texels.
+
 // One primitive of one mesh instance (raster: one draw), or one analytic shape.
 struct DrawRecord {
   uint firstTriangle;  // in the flattened triangle list
@@ -27,8 +30,10 @@ struct DrawRecord {
   uint instanceId;     // index of the node instance; a shape and its fallback mesh share it
   uint primitiveBase;  // added to the triangle's index within this record to give the primitive id of the AOVs
   uint flags;          // kDraw*
+  uint unused0;
+  uint unused1;
 };
-CL_SIZE(DrawRecord, 24)
+CL_SIZE(DrawRecord, 32)
 CL_CONST uint kDrawFlipsWinding = 1u;  // the node's transform mirrors: front faces are clockwise
 CL_CONST uint kDrawHasColors = 2u;     // else the color is 1 exactly, which interpolation need not give back
 
@@ -69,13 +74,14 @@ struct MaterialRecord {
   vec3 mirror;                   // kr of the classic models: weight of the reflected ray (no Fresnel term)
   vec3 attenuationColor;         // KHR_materials_volume, per attenuationDistance
   float attenuationDistance;     // <= 0: no absorption
+  uint unused;                   // textures begin in the middle of a texel: five texels hold two
   TextureSlot baseColorTexture;  // classic: multiplies ka and kd
   TextureSlot metallicRoughnessTexture;
   TextureSlot normalTexture;
   TextureSlot occlusionTexture;
   TextureSlot emissiveTexture;
 };
-CL_SIZE(MaterialRecord, 332)
+CL_SIZE(MaterialRecord, 336)
 CL_CONST uint kMaterialDoubleSided = 1u;
 CL_CONST uint kMaterialAlphaMask = 2u;
 CL_CONST uint kMaterialAlphaBlend = 4u;
@@ -113,8 +119,9 @@ struct ShapeRecord {
   mat3 objectFromRender;
   vec4 params;  // sphere: radius; disk: radius; box: size xyz; cylinder, cone: radius, height; torus: center circle's
                 // radius, tube's radius
+  uint unused;
 };
-CL_SIZE(ShapeRecord, 108)
+CL_SIZE(ShapeRecord, 112)
 
 // Everything that is constant for one sample of one frame.
 struct FrameRecord {
@@ -173,6 +180,18 @@ CL_CONST uint kBvhLeaf = 0x80000000u;
 CL_CONST uint kBvhCountShift = 27u;  // 4 bits: 1..15 primitives
 CL_CONST uint kBvhFirstMask = 0x07ffffffu;
 CL_CONST uint kBvhStackSize = 64u;  // depth that the shaders' stack holds; the builder never exceeds it
+
+// Child of a wide node, 32 bytes = two RGBA32UI texels. Eight of them are a node: child i of node n is texels 16 n + 2
+// i and the next. References are those of BvhNode (inner: index of a wide node); an empty child is kBvhLeaf.
+struct WideChild {
+  vec3 lower;
+  uint child;
+  vec3 upper;
+  uint unused;
+};
+CL_SIZE(WideChild, 32)
+CL_CONST uint kWideChildren = 8u;
+CL_CONST uint kWideDepth = 32u;  // inner nodes on a path that the packets' stack has room for; else narrow kernels run
 
 // Primitive of the BVH in leaf order, 48 bytes = three RGBA32F texels. A triangle holds its corners; a shape only its
 // id.

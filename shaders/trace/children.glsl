@@ -3,28 +3,14 @@
 #define CROSSLIGHT_CHILDREN_GLSL
 
 // Node for a new ray, or kNoRayNode when the store is full (counted: the host starts again with fewer pixels).
-uint addRay(RayNode parent, HitSurface h, vec3 direction, vec3 weight, uint kind, uint medium) {
+uint addRay(RayRecord parent, HitSurface h, vec3 direction, vec3 weight, uint kind, uint medium) {
   uint slot = atomicAdd(counters[kCounterRayNodes], 1u);
   if (slot >= pushed.nodeCapacity) {
     atomicAdd(counters[kCounterOverflow], 1u);
     return kNoRayNode;
   }
-  RayNode node;
-  node.origin = leaveSurface(h, direction);
-  node.tMin = 0.0;
-  node.direction = direction;
-  node.tMax = kLargest;
-  node.weight = weight;
-  node.pixel = parent.pixel;
-  node.value = vec3(0.0);
-  node.kind = kind;
-  node.reflected = kNoRayNode;
-  node.transmitted = kNoRayNode;
-  node.medium = medium;
-  node.depth = parent.depth + 1u;
-  node.alpha = 0.0;
-  node.from = h.slot;
-  nodes[slot] = node;
+  rays[slot] = RayRecord(leaveSurface(h, direction), 0.0, direction, kLargest, h.slot, medium, kind, parent.depth + 1u);
+  nodes[slot].weight = weight;
   atomicAdd(counters[kCounterReflection - kRayReflection + kind], 1u);
   return slot;
 }
@@ -37,10 +23,16 @@ vec3 mirrorRay(vec3 d, vec3 n, vec3 ng) {
   return dot(r, ng) > 0.0 ? r : safeNormalize(reflect(d, ng), ng);
 }
 
-void spawnChildren(inout RayNode node, HitSurface h, SurfacePoint s) {
-  if (node.depth >= pushed.maxDepth) return;
-  MaterialRecord m = materials[h.at.materialId];
-  vec3 d = safeNormalize(node.direction, vec3(0.0, 0.0, 1.0));
+struct Children {
+  uint reflected;
+  uint transmitted;
+};
+
+Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
+  Children children = Children(kNoRayNode, kNoRayNode);
+  if (ray.depth >= pushed.maxDepth) return children;
+  MaterialRecord m = materialOf(h.at.materialId);
+  vec3 d = safeNormalize(ray.direction, vec3(0.0, 0.0, 1.0));
   bool fromOutside = h.at.frontFacing;
   vec3 ng = fromOutside ? h.at.geometricNormal : -h.at.geometricNormal;
   vec3 outward = safeNormalize(h.at.normal, h.at.geometricNormal);
@@ -75,12 +67,13 @@ void spawnChildren(inout RayNode node, HitSurface h, SurfacePoint s) {
   }
   throughWeight += vec3(behind);
   if (carriesLight(mirrorWeight))
-    node.reflected = addRay(node, h, mirrorRay(d, n, ng), mirrorWeight, kRayReflection, node.medium);
+    children.reflected = addRay(ray, h, mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium);
   if (carriesLight(throughWeight)) {
     uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
     bool bent = bends && !thin;
-    node.transmitted = addRay(node, h, onward, throughWeight, bent ? kRayRefraction : kRayPassThrough,
-                              bent ? inside : node.medium);
+    children.transmitted = addRay(ray, h, onward, throughWeight, bent ? kRayRefraction : kRayPassThrough,
+                                  bent ? inside : ray.medium);
   }
+  return children;
 }
 #endif

@@ -4,19 +4,32 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
+#include "trace/camera.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindSampleColor, scalar) writeonly buffer SampleBlock { vec4 samples[]; };
+layout(set = 0, binding = kBindRayNodes, scalar) writeonly buffer NodeBlock { RayNode nodes[]; };
+layout(set = 0, binding = kBindNodeTexels) uniform usamplerBuffer nodeTexels;
+
+vec4 texelOf(uint node, uint part) { return uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + part))); }
 
 void main() {
   if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
   uint index = pushed.firstNode + gl_GlobalInvocationID.x;
-  RayNode node = nodes[index];
-  if (node.reflected != kNoRayNode) node.value += nodes[node.reflected].weight * nodes[node.reflected].value;
-  if (node.transmitted != kNoRayNode) {
-    node.value += nodes[node.transmitted].weight * nodes[node.transmitted].value;
-    node.alpha += (1.0 - node.alpha) * nodes[node.transmitted].alpha;
+  vec4 own = texelOf(index, 0u);
+  uvec2 children = texelFetch(nodeTexels, int(3u * index + 2u)).xy;
+  vec4 reflected = texelOf(children.x == kNoRayNode ? index : children.x, 0u);
+  vec4 transmitted = texelOf(children.y == kNoRayNode ? index : children.y, 0u);
+  if (children.x != kNoRayNode) own.rgb += reflected.rgb;
+  if (children.y != kNoRayNode) {
+    own.rgb += transmitted.rgb;
+    own.a += (1.0 - own.a) * transmitted.a;
   }
-  nodes[index] = node;
-  if (node.kind == kRayPrimary) samples[node.pixel] = vec4(node.value, node.alpha);
+  if (pushed.firstNode > 0u) {
+    nodes[index].value = own.rgb * texelOf(index, 1u).rgb;
+    nodes[index].alpha = own.a;
+    return;
+  }
+  uint pixel = pixelOf(cameraPlace(gl_GlobalInvocationID.x));
+  if (pixel != kNoPixel) samples[pixel] = own;
 }

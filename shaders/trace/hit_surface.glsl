@@ -13,17 +13,33 @@ struct HitSurface {
   uint slot;  // of the triangle in the tree; kNoHit for shapes, whose rays may meet them again
 };
 
+// Where on a triangle a ray has met it.
+struct TrianglePoint {
+  vec3 position;
+  vec3 error;
+};
+
+TrianglePoint pointOnTriangle(PrimitiveTexels p, vec3 b) {
+  vec3 x = b.x * p.v0;
+  vec3 y = b.y * p.v1;
+  vec3 z = b.z * p.v2;
+  // gamma_7: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering" 4th ed., Eq. 6.31.
+  return TrianglePoint(x + y + z, gammaBound(7.0) * (abs(x) + abs(y) + abs(z)));
+}
+
+vec3 barycentricsOf(HitRecord hit) { return vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2); }
+
 HitSurface triangleSurface(HitRecord hit) {
   PrimitiveTexels p = fetchPrimitive(hit.primitive);
   VertexAttributes a0 = attributesOf(indices[3u * p.id]);
   VertexAttributes a1 = attributesOf(indices[3u * p.id + 1u]);
   VertexAttributes a2 = attributesOf(indices[3u * p.id + 2u]);
-  DrawRecord draw = draws[p.drawId];
-  vec3 b = vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
+  DrawRecord draw = drawOf(p.drawId);
+  vec3 b = barycentricsOf(hit);
+  TrianglePoint point = pointOnTriangle(p, b);
   HitSurface s;
-  s.at.renderPos = b.x * p.v0 + b.y * p.v1 + b.z * p.v2;
-  // gamma_7: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering" 4th ed., Eq. 6.31.
-  s.positionError = gammaBound(7.0) * (abs(b.x * p.v0) + abs(b.y * p.v1) + abs(b.z * p.v2));
+  s.at.renderPos = point.position;
+  s.positionError = point.error;
   s.at.normal = b.x * a0.renderNormal + b.y * a1.renderNormal + b.z * a2.renderNormal;
   s.at.geometricNormal = triangleNormal(p.v0, p.v1, p.v2, (draw.flags & kDrawFlipsWinding) != 0u);
   s.at.tangent = b.x * a0.renderTangent + b.y * a1.renderTangent + b.z * a2.renderTangent;
@@ -39,9 +55,9 @@ HitSurface triangleSurface(HitRecord hit) {
 }
 
 HitSurface shapeSurface(HitRecord hit, Ray ray) {
-  ShapeRecord shape = shapes[hit.primitive & ~kHitShape];
+  ShapeRecord shape = shapeOf(hit.primitive & ~kHitShape);
   ShapeHit found = hitShapeInstance(hit.primitive & ~kHitShape, ray);
-  DrawRecord draw = draws[shape.drawId];
+  DrawRecord draw = drawOf(shape.drawId);
   HitSurface s;
   vec3 fromCenter = shape.renderFromObject * found.p;
   s.at.renderPos = shape.renderCenter + fromCenter;
@@ -67,7 +83,8 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
 // `bothSides`: what secondary rays meet is lit on the side that they see (camera rays keep to the material's rule).
 HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
   HitSurface s;
-  if (CL_HAS(shapes) && (hit.primitive & kHitShape) != 0u) s = shapeSurface(hit, ray);
+  bool shape = CL_HAS(shapes) && (!CL_HAS(triangles) || (hit.primitive & kHitShape) != 0u);
+  if (shape) s = shapeSurface(hit, ray);
   else s = triangleSurface(hit);
   s.at.frontFacing = dot(s.at.geometricNormal, ray.direction) < 0.0;
   s.at.bothSides = bothSides;
@@ -76,10 +93,13 @@ HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
 
 // Origin of a ray that leaves the surface towards `direction`: beyond the error bound, on that side. The sum rounds
 // once more, hence the last term.
+vec3 leavePoint(vec3 position, vec3 error, vec3 ng, vec3 direction) {
+  float along = dot(abs(ng), error + gammaBound(2.0) * abs(position));
+  return position + (dot(ng, direction) < 0.0 ? -along : along) * ng;
+}
+
 vec3 leaveSurface(HitSurface s, vec3 direction) {
-  vec3 ng = s.at.geometricNormal;
-  float along = dot(abs(ng), s.positionError + gammaBound(2.0) * abs(s.at.renderPos));
-  return s.at.renderPos + (dot(ng, direction) < 0.0 ? -along : along) * ng;
+  return leavePoint(s.at.renderPos, s.positionError, s.at.geometricNormal, direction);
 }
 
 #endif

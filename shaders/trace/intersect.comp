@@ -1,5 +1,5 @@
 #version 460
-// Closest hit of every ray of one level.
+// Closest triangle of every stored ray of one level, one ray per lane.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
@@ -11,7 +11,7 @@ float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded her
 
 void main() {
   if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
-  uint index = pushed.firstNode + gl_GlobalInvocationID.x;
-  RayNode node = nodes[index];
-  hits[index] = closestHit(rayOf(node), goesStraight(node));
+  uint node = pushed.firstNode + gl_GlobalInvocationID.x;
+  RayRecord ray = rayRecordOf(node);
+  hits[node] = closestTriangle(rayOf(ray), goesStraight(ray.kind));
 }

@@ -14,30 +14,30 @@ float alphaAtTriangle(uint triangle, uint drawId, float b1, float b2) {
   VertexAttributes a0 = attributesOf(indices[3u * triangle]);
   VertexAttributes a1 = attributesOf(indices[3u * triangle + 1u]);
   VertexAttributes a2 = attributesOf(indices[3u * triangle + 2u]);
-  DrawRecord draw = draws[drawId];
+  DrawRecord draw = drawOf(drawId);
   float b0 = 1.0 - b1 - b2;
   bool colored = (draw.flags & kDrawHasColors) != 0u;
   float vertexAlpha = b0 * a0.color.a + b1 * a1.color.a + b2 * a2.color.a;
-  return baseAlphaAt(materials[draw.materialId], b0 * a0.uv0 + b1 * a1.uv0 + b2 * a2.uv0,
+  return baseAlphaAt(materialOf(draw.materialId), b0 * a0.uv0 + b1 * a1.uv0 + b2 * a2.uv0,
                      b0 * a0.uv1 + b1 * a1.uv1 + b2 * a2.uv1, colored ? vertexAlpha : 1.0);
 }
 
 float passedByTriangle(uint triangle, uint drawId, float b1, float b2) {
-  return passedLight(materials[draws[drawId].materialId], alphaAtTriangle(triangle, drawId, b1, b2));
+  return passedLight(materialOf(drawOf(drawId).materialId), alphaAtTriangle(triangle, drawId, b1, b2));
 }
 
 float passedByShape(uint drawId, vec2 uv) {
-  MaterialRecord m = materials[draws[drawId].materialId];
+  MaterialRecord m = materialOf(drawOf(drawId).materialId);
   return passedLight(m, baseAlphaAt(m, uv, uv, 1.0));
 }
 
 bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2) {
-  MaterialRecord m = materials[draws[drawId].materialId];
+  MaterialRecord m = materialOf(drawOf(drawId).materialId);
   bool masked = (m.flags & kMaterialAlphaMask) != 0u;
   return masked && cutByMask(m, alphaAtTriangle(triangle, drawId, b1, b2));
 }
 
 bool isOneSided(uint drawId) {
-  return (materials[draws[drawId].materialId].flags & kMaterialDoubleSided) == 0u && frame.twoSided == 0u;
+  return (materialOf(drawOf(drawId).materialId).flags & kMaterialDoubleSided) == 0u && frame.twoSided == 0u;
 }
 #endif

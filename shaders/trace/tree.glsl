@@ -1,13 +1,42 @@
-// The ray tree's storage and the step from a hit to a surface: shared by the kernels of the Whitted tracer.
+// The ray tree's storage: shared by the kernels of the Whitted tracer.
 #ifndef CROSSLIGHT_TREE_GLSL
 #define CROSSLIGHT_TREE_GLSL
+#include "accel/ray.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { TracePush pushed; };
-layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
-layout(set = 0, binding = kBindHits, scalar) buffer HitBlock { HitRecord hits[]; };
+layout(set = 0, binding = kBindRays, scalar) writeonly buffer RayBlock { RayRecord rays[]; };
+layout(set = 0, binding = kBindRayTexels) uniform usamplerBuffer rayTexels;
+layout(set = 0, binding = kBindHits, scalar) writeonly buffer HitBlock { HitRecord hits[]; };
+layout(set = 0, binding = kBindHitTexels) uniform usamplerBuffer hitTexels;
 layout(set = 0, binding = kBindVisibility, scalar) buffer VisibilityBlock { float visibilities[]; };
+
+layout(set = 0, binding = kBindRest, scalar) buffer RestBlock { uint rest[]; };
+
+// Do surfaces send rays on at all? Else there is one level, and no tree is kept.
+const bool kBranches = (specEffects & (kEffect_reflection | kEffect_refraction | kEffect_transparency)) != 0u;
+
+// What earlier dispatches have left.
+HitRecord hitOf(uint node) {
+  uvec4 hit = texelFetch(hitTexels, int(node));
+  return HitRecord(uintBitsToFloat(hit.x), hit.y, uintBitsToFloat(hit.z), uintBitsToFloat(hit.w));
+}
+
+RayRecord rayRecordOf(uint node) {
+  uvec4 a = texelFetch(rayTexels, int(3u * node));
+  uvec4 b = texelFetch(rayTexels, int(3u * node + 1u));
+  uvec4 c = texelFetch(rayTexels, int(3u * node + 2u));
+  return RayRecord(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), c.x, c.y,
+                   c.z, c.w);
+}
 
 // What the camera sees directly or through surfaces that do not bend light: single-sided surfaces have no back there,
 // as in the rasteriser. Mirrored and refracted rays meet bodies from inside too.
-bool goesStraight(RayNode node) { return node.kind == kRayPrimary || node.kind == kRayPassThrough; }
+bool goesStraight(uint kind) { return kind == kRayPrimary || kind == kRayPassThrough; }
+
+// Ray of this invocation within its level: all are walked through, or only the groups of 64 that packets gave up.
+uint rayOfInvocation() {
+  uint group = gl_WorkGroupID.x;
+  if ((specVariant & kVariantRest) != 0u) group = rest[kRestGroups + group];
+  return group * 64u + gl_LocalInvocationID.x;
+}
 #endif

@@ -33,10 +33,10 @@ Scene sceneOf(const std::vector<Triangle>& triangles) {
   return scene;
 }
 
-std::vector<shared::RayNode> randomRays(std::uint64_t seed) {
+std::vector<shared::RayRecord> randomRays(std::uint64_t seed) {
   Random random(seed);
-  std::vector<shared::RayNode> rays(kRays);
-  for (shared::RayNode& ray : rays) {
+  std::vector<shared::RayRecord> rays(kRays);
+  for (shared::RayRecord& ray : rays) {
     ray = {};
     ray.origin = glm::vec3(2.5 * random.direction());
     ray.direction = random.inBox(1) - ray.origin;
@@ -65,7 +65,7 @@ TEST_P(KernelAgainstEmbree, aMillionRaysHitAndMissTheSameAtTheSameDistance) {
   GpuScene gpuScene(device(), scene, settings, std::move(flat), &bvh);
   const Plan plan = makePlan(scene, settings);
   bench::RayKernels kernels(device(), gpuScene, plan, settings);
-  const std::vector<shared::RayNode> rays = randomRays(4242);
+  const std::vector<shared::RayRecord> rays = randomRays(4242);
   kernels.setBounceRays(rays);
   kernels.bounce();
   const std::vector<shared::HitRecord> hits = kernels.bounceHits();

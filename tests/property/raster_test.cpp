@@ -43,11 +43,11 @@ TEST(DrawLists, joinNeighboursOfOneStateAndKeepTheOrder) {
   Scene scene;
   scene.materials.resize(2);
   FlatScene flat;
-  flat.draws = {{0, 2, 0, 0, 0, 0},
-                {2, 3, 0, 1, 0, 0},
-                {5, 1, 1, 2, 0, 0},
-                {6, 4, 0, 3, 0, 0},
-                {10, 1, 0, 4, 0, shared::kDrawFlipsWinding}};
+  flat.draws = {{0, 2, 0, 0, 0, 0, 0, 0},
+                {2, 3, 0, 1, 0, 0, 0, 0},
+                {5, 1, 1, 2, 0, 0, 0, 0},
+                {6, 4, 0, 3, 0, 0, 0, 0},
+                {10, 1, 0, 4, 0, shared::kDrawFlipsWinding, 0, 0}};
   flat.meshDrawCount = 5;
   const DrawLists lists = makeDrawLists(flat, scene, Plan{}, RenderSettings{});
   const std::vector<DrawCall> expected{call(0, 5, 0, 0), call(5, 1, 1, 0), call(6, 4, 0, 0),

@@ -91,26 +91,25 @@ class Picture {
     const Rounds rounds = interleave(contenders, bench_.rounds);
     report(rounds);
     const RayKernels::Counts counts = kernels_.takeCounts();
-    bench_.report.addCheck(name_ + ".traversalLimit", counts.capped == 0, {{"cappedTraversals", counts.capped}});
+    bench_.report.addCheck(name_ + ".traversalLimit", counts.capped + counts.gaveUp == 0,
+                           {{"cappedTraversals", counts.capped}});
   }
 
  private:
   void makeRays() {
-    kernels_.generate();
-    kernels_.intersect();
+    kernels_.camera();
     kernels_.takeCounts();
     kernels_.shadow();
-    nodes_ = kernels_.nodes();
     hits_ = kernels_.hits();
     const glm::vec3 light = makeLightRecords(scene_, renderOrigin(scene_.cameras[0])).front().renderPosition;
-    camera_ = cameraRays(nodes_);
-    shadow_ = shadowRays(nodes_, hits_, bvh_.primitives, light);
-    bounce_ = bounceRays(nodes_, hits_, bvh_.primitives, kRaySeed);
+    camera_ = cameraRays(makeFrameRecord(scene_, settings_, glm::vec2(0.5f)), hits_.size());
+    shadow_ = shadowRays(camera_, hits_, bvh_.primitives, light);
+    bounce_ = bounceRays(camera_, hits_, bvh_.primitives, kRaySeed);
     const RayKernels::Counts counts = kernels_.takeCounts();
     bench_.report.addCheck(name_ + ".shadowRays", counts.shadowRays == shadow_.rays.size() && !shadow_.rays.empty(),
                            {{"traced", counts.shadowRays}, {"rebuilt", shadow_.rays.size()}});
     if (bounce_.rays.empty()) throw InternalError("the camera sees nothing of the knot scene");
-    kernels_.setBounceRays(asRayNodes(bounce_));
+    kernels_.setBounceRays(asRayRecords(bounce_));
   }
 
   void startEmbree() {
@@ -124,7 +123,7 @@ class Picture {
   }
 
   void check() {
-    std::vector<std::uint32_t> same(nodes_.size()), bounceSlot(nodes_.size());
+    std::vector<std::uint32_t> same(hits_.size()), bounceSlot(hits_.size());
     for (std::uint32_t i = 0; i < same.size(); ++i) same[i] = i;
     for (std::uint32_t i = 0; i < bounce_.nodes.size(); ++i) bounceSlot[bounce_.nodes[i]] = i;
     kernels_.bounce();
@@ -150,9 +149,8 @@ class Picture {
   }
 
   std::vector<Contender> ours() {
-    return {timed(".generate", [&] { return kernels_.generate(); }),
-            timed(".primary", [&] { return kernels_.intersect(); }),
-            timed(".shadow", [&] { return kernels_.shadow(); }), timed(".bounce", [&] { return kernels_.bounce(); })};
+    return {timed(".primary", [&] { return kernels_.camera(); }), timed(".shadow", [&] { return kernels_.shadow(); }),
+            timed(".bounce", [&] { return kernels_.bounce(); })};
   }
 
   std::vector<Contender> theirs() {
@@ -165,7 +163,6 @@ class Picture {
   }
 
   void report(const Rounds& rounds) {
-    bench_.report.addTime(name_ + ".generate", rounds);
     const std::pair<const char*, std::size_t> kinds[] = {
         {".primary", camera_.rays.size()}, {".shadow", shadow_.rays.size()}, {".bounce", bounce_.rays.size()}};
     for (const auto& [kind, count] : kinds) {
@@ -190,7 +187,6 @@ class Picture {
   FlatBvh bvh_;
   GpuScene gpuScene_;
   RayKernels kernels_;
-  std::vector<shared::RayNode> nodes_;
   std::vector<shared::HitRecord> hits_;
   HostRays camera_, shadow_, bounce_, cameraOrdered_, shadowOrdered_, bounceOrdered_;
   std::optional<EmbreeMesh> mesh_;

@@ -10,7 +10,7 @@ namespace {
 
 using shared::BvhPrimitive;
 using shared::HitRecord;
-using shared::RayNode;
+using shared::RayRecord;
 
 constexpr float kLargest = 3.0e38f;  // as in shaders/math/numeric.glsl
 // As in shaders/trace/shadow.comp.
@@ -67,21 +67,35 @@ std::uint64_t spread(std::uint32_t value) {
   return (bits | (bits << 1u)) & 0x5555555555555555ull;
 }
 
+// As in shaders/trace/camera.glsl.
+std::pair<std::uint32_t, std::uint32_t> pixelInTiles(std::uint32_t ray, std::uint32_t imageWidth) {
+  constexpr std::uint32_t size = shared::kTileSize;
+  const std::uint32_t across = (imageWidth + size - 1) / size, tile = ray / (size * size), within = ray % (size * size);
+  const auto everyOther = [](std::uint32_t bits) { return (bits & 1u) | ((bits >> 1u) & 2u) | ((bits >> 2u) & 4u); };
+  return {size * (tile % across) + everyOther(within), size * (tile / across) + everyOther(within >> 1u)};
+}
+
 }  // namespace
 
-HostRays cameraRays(std::span<const RayNode> nodes) {
+// A perspective camera's, in the tracer's order and arithmetic.
+HostRays cameraRays(const shared::FrameRecord& frame, std::size_t count) {
   HostRays result;
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    result.rays.push_back({nodes[i].origin, nodes[i].tMin, nodes[i].direction, nodes[i].tMax});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto [x, y] = pixelInTiles(i, frame.resolution.x);
+    const glm::vec2 at = glm::vec2(x, y) + frame.sampleOffset;
+    const glm::vec2 plane =
+        (2.0f * at / glm::vec2(frame.resolution) - 1.0f) * glm::vec2(1.0f, -1.0f) * frame.imagePlaneHalf;
+    const glm::vec3 across = plane.x * frame.cameraRight + plane.y * frame.cameraUp;
+    result.rays.push_back({glm::vec3(0.0f), frame.zNear, frame.cameraForward + across, frame.zFar});
     result.nodes.push_back(i);
   }
   return result;
 }
 
-HostRays shadowRays(std::span<const RayNode> nodes, std::span<const HitRecord> hits,
-                    std::span<const BvhPrimitive> primitives, const glm::vec3& renderPosition) {
+HostRays shadowRays(const HostRays& camera, std::span<const HitRecord> hits, std::span<const BvhPrimitive> primitives,
+                    const glm::vec3& renderPosition) {
   HostRays result;
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+  for (std::uint32_t i = 0; i < camera.rays.size(); ++i) {
     if (hits[i].primitive == shared::kNoHit) continue;
     const Surface s = surfaceOf(hits[i], primitives);
     const glm::vec3 origin = leave(s, renderPosition - s.position);
@@ -91,13 +105,13 @@ HostRays shadowRays(std::span<const RayNode> nodes, std::span<const HitRecord> h
   return result;
 }
 
-HostRays bounceRays(std::span<const RayNode> nodes, std::span<const HitRecord> hits,
-                    std::span<const BvhPrimitive> primitives, std::uint32_t seed) {
+HostRays bounceRays(const HostRays& camera, std::span<const HitRecord> hits, std::span<const BvhPrimitive> primitives,
+                    std::uint32_t seed) {
   HostRays result;
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+  for (std::uint32_t i = 0; i < camera.rays.size(); ++i) {
     if (hits[i].primitive == shared::kNoHit) continue;
     const Surface s = surfaceOf(hits[i], primitives);
-    const glm::vec3 n = glm::dot(s.normal, nodes[i].direction) > 0.0f ? -s.normal : s.normal;
+    const glm::vec3 n = glm::dot(s.normal, camera.rays[i].direction) > 0.0f ? -s.normal : s.normal;
     const glm::vec3 direction = cosineDirection(n, uniform(i, 0, seed), uniform(i, 1, seed));
     result.rays.push_back({leave(s, direction), 0.0f, direction, kLargest});
     result.nodes.push_back(i);
@@ -105,18 +119,16 @@ HostRays bounceRays(std::span<const RayNode> nodes, std::span<const HitRecord> h
   return result;
 }
 
-std::vector<RayNode> asRayNodes(const HostRays& rays) {
-  std::vector<RayNode> nodes;
+std::vector<RayRecord> asRayRecords(const HostRays& rays) {
+  std::vector<RayRecord> nodes;
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
-    RayNode node{};
+    RayRecord node{};
     node.origin = rays.rays[i].origin;
     node.direction = rays.rays[i].direction;
     node.tMin = rays.rays[i].tMin;
     node.tMax = rays.rays[i].tMax;
-    node.weight = glm::vec3(1.0f);
-    node.pixel = rays.nodes[i];
     node.kind = shared::kRayReflection;
-    node.reflected = node.transmitted = node.medium = shared::kNoRayNode;
+    node.medium = shared::kNoRayNode;
     node.from = shared::kNoHit;
     node.depth = 1;
     nodes.push_back(node);
@@ -127,7 +139,7 @@ std::vector<RayNode> asRayNodes(const HostRays& rays) {
 HostRays inMortonOrder(const HostRays& rays, std::uint32_t imageWidth) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
-    const std::uint32_t x = rays.nodes[i] % imageWidth, y = rays.nodes[i] / imageWidth;
+    const auto [x, y] = pixelInTiles(rays.nodes[i], imageWidth);
     order.emplace_back(spread(x) | (spread(y) << 1u), i);
   }
   std::sort(order.begin(), order.end());

@@ -18,18 +18,18 @@ struct HostRays {
   std::vector<std::uint32_t> nodes;
 };
 
-HostRays cameraRays(std::span<const shared::RayNode> nodes);
+HostRays cameraRays(const shared::FrameRecord& frame, std::size_t count);
 
 // From every hit to a light at `renderPosition`, as shadow.comp makes them. `primitives` are the BVH's.
-HostRays shadowRays(std::span<const shared::RayNode> nodes, std::span<const shared::HitRecord> hits,
+HostRays shadowRays(const HostRays& camera, std::span<const shared::HitRecord> hits,
                     std::span<const shared::BvhPrimitive> primitives, const glm::vec3& renderPosition);
 
 // One ray from every hit into the hemisphere on the viewer's side, its density proportional to the cosine. A function
 // of pixel and seed alone.
-HostRays bounceRays(std::span<const shared::RayNode> nodes, std::span<const shared::HitRecord> hits,
+HostRays bounceRays(const HostRays& camera, std::span<const shared::HitRecord> hits,
                     std::span<const shared::BvhPrimitive> primitives, std::uint32_t seed);
 // As records for the kernels: reflected rays, which meet both sides of every surface.
-std::vector<shared::RayNode> asRayNodes(const HostRays& rays);
+std::vector<shared::RayRecord> asRayRecords(const HostRays& rays);
 
 // The same rays in Morton order of their pixels: neighbors in the picture are neighbors in the list.
 HostRays inMortonOrder(const HostRays& rays, std::uint32_t imageWidth);

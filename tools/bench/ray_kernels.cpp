@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/check.h"
+#include "base/error.h"
+#include "trace/whitted.h"
 
 namespace crosslight::bench {
 
@@ -10,60 +14,79 @@ using namespace shared;
 
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;  // local_size_x of the kernels
-
 template <class Record>
-gpu::Buffer storage(const gpu::Device& device, const char* name, std::uint64_t count) {
-  return gpu::Buffer(device, name, count * sizeof(Record), gpu::useStorage);
+gpu::Buffer texels(const gpu::Device& device, const char* name, std::uint64_t count) {
+  return gpu::Buffer(device, name, count * sizeof(Record), gpu::useStorage | gpu::useUniformTexel);
+}
+
+RenderSettings withFamily(RenderSettings settings, KernelFamily family) {
+  settings.kernel = family;
+  settings.maxDepth = std::max(settings.maxDepth, 1u);  // a kernel for secondary rays is wanted too
+  return settings;
+}
+
+// So that a kernel for secondary rays is among those that the plan runs.
+Plan branching(Plan plan) {
+  plan.effects |= 1u << static_cast<std::uint32_t>(Effect::reflection);
+  return plan;
 }
 
 }  // namespace
 
-RayKernels::RayKernels(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings)
+RayKernels::RayKernels(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings,
+                       KernelFamily family)
     : device_(device),
       scene_(scene),
-      pixels_(settings.width * settings.height),
-      nodes_(storage<RayNode>(device, "ray nodes", pixels_)),
-      hits_(storage<HitRecord>(device, "hits", pixels_)),
-      visibility_(storage<float>(device, "visibility", pixels_)),
+      count_(cameraRayCount(settings.width, settings.height)),
+      rows_(settings.height),
+      kernels_(device, scene.scene(), plan, withFamily(settings, family)),
+      secondary_(device, scene.scene(), branching(plan), withFamily(settings, family)),
+      rays_(texels<RayRecord>(device, "rays", count_)),
+      nodes_(texels<RayNode>(device, "ray nodes", 1)),
+      hits_(texels<HitRecord>(device, "hits", count_)),
+      visibility_(device, "visibility", count_ * sizeof(float), gpu::useStorage),
       counters_(device, "counters", kCounterCount * sizeof(std::uint32_t), gpu::useStorage | gpu::useReadback),
-      layout_(device, sceneBindings({kBindRayNodes, kBindHits, kBindVisibility, kBindCounters}), sizeof(TracePush)),
-      set_(device, layout_),
+      rest_(device, "rest", (kRestGroups + count_ / kRaysPerGroup + 1) * sizeof(std::uint32_t), gpu::useStorage),
+      dummy_(device, "unused", sizeof(AovRecord), gpu::useStorage),
+      set_(device, kernels_.layout()),
       commands_(device) {
   CL_CHECK_EQ(scene.lightCount(), 1u);
   scene_.setSample(glm::vec2(0.5f));
-  bind(set_, nodes_, hits_);
-  const auto pipeline = [&](const char* name) {
-    return gpu::ComputePipeline(device, layout_, gpu::embeddedShader(name), constantsOf(plan));
-  };
-  generate_ = pipeline("generate.comp");
-  intersect_ = pipeline("intersect.comp");
-  shadow_ = pipeline("shadow.comp");
+  bind(set_, rays_, hits_);
   takeCounts();
 }
 
-void RayKernels::bind(gpu::BindingSet& set, const gpu::Buffer& nodes, const gpu::Buffer& hits) {
+void RayKernels::bind(gpu::BindingSet& set, const gpu::Buffer& rays, const gpu::Buffer& hits) {
   scene_.bind(set);
-  set.set(kBindRayNodes, nodes);
+  set.set(kBindRays, rays);
+  set.set(kBindRayTexels, rays);
+  set.set(kBindRayNodes, nodes_);
+  set.set(kBindNodeTexels, nodes_);
   set.set(kBindHits, hits);
+  set.set(kBindHitTexels, hits);
   set.set(kBindVisibility, visibility_);
   set.set(kBindCounters, counters_);
+  set.set(kBindRest, rest_);
+  set.set(kBindSampleColor, dummy_);
+  set.set(kBindAovs, dummy_);
 }
 
-double RayKernels::run(const gpu::ComputePipeline& pipeline, const gpu::BindingSet& set, std::uint32_t rays) {
+double RayKernels::run(KernelPipelines& kernels, const std::string& kernel, const gpu::BindingSet& set,
+                       std::uint32_t rays) {
   TracePush push{};
   push.nodeCount = rays;
-  push.nodeCapacity = pixels_;
+  push.nodeCapacity = count_;
   push.lightCount = 1;
-  const std::uint32_t groups = (rays + kGroupSize - 1) / kGroupSize;
+  push.bandRows = rows_;
+  const std::uint32_t groups = (rays + kRaysPerGroup - 1) / kRaysPerGroup;
   if (groups > device_.info().maxWorkGroupCountX) {
     throw DeviceError(fmt::format("{} rays at once: '{}' allows {} groups of {}", rays, device_.info().name,
-                                  device_.info().maxWorkGroupCountX, kGroupSize));
+                                  device_.info().maxWorkGroupCountX, kRaysPerGroup));
   }
   commands_.begin();
   commands_.barrier();
   commands_.beginSpan("kernel");
-  commands_.bind(pipeline, set);
+  commands_.bind(kernels.get(kernel), set);
   commands_.push(push);
   commands_.dispatch(groups);
   commands_.endSpan();
@@ -72,24 +95,23 @@ double RayKernels::run(const gpu::ComputePipeline& pipeline, const gpu::BindingS
   return device_.info().timestampPeriodNs > 0 ? commands_.spans().front().gpuMs : commands_.submitToIdleMs();
 }
 
-double RayKernels::generate() { return run(generate_, set_, pixels_); }
-double RayKernels::intersect() { return run(intersect_, set_, pixels_); }
-double RayKernels::shadow() { return run(shadow_, set_, pixels_); }
-double RayKernels::bounce() { return run(intersect_, bounceSet_, bounceCount_); }
+double RayKernels::camera() { return run(kernels_, kernels_.choice().camera, set_, count_); }
+double RayKernels::shadow() { return run(kernels_, kernels_.choice().shadow, set_, count_); }
+double RayKernels::bounce() { return run(secondary_, secondary_.choice().secondary, bounceSet_, bounceCount_); }
 
-void RayKernels::setBounceRays(const std::vector<RayNode>& rays) {
+void RayKernels::setBounceRays(const std::vector<RayRecord>& rays) {
   bounceCount_ = static_cast<std::uint32_t>(rays.size());
-  bounceNodes_ = gpu::Buffer::of(device_, "bounce rays", rays, gpu::useStorage);
-  bounceHits_ = storage<HitRecord>(device_, "bounce hits", rays.size());
-  bounceSet_ = gpu::BindingSet(device_, layout_);
-  bind(bounceSet_, bounceNodes_, bounceHits_);
+  bounceRays_ = gpu::Buffer::of(device_, "bounce rays", rays, gpu::useStorage | gpu::useUniformTexel);
+  bounceHits_ = texels<HitRecord>(device_, "bounce hits", rays.size());
+  bounceSet_ = gpu::BindingSet(device_, secondary_.layout());
+  bind(bounceSet_, bounceRays_, bounceHits_);
 }
 
 RayKernels::Counts RayKernels::takeCounts() {
   const std::vector<std::uint32_t> now = counters_.readAll<std::uint32_t>();
   const std::vector<std::uint32_t> zeros(kCounterCount, 0u);
   counters_.write(0, std::as_bytes(std::span(zeros)));
-  return {now[kCounterShadowRays], now[kCounterCapped]};
+  return {now[kCounterShadowRays], now[kCounterCapped], now[kCounterGaveUp]};
 }
 
 }  // namespace crosslight::bench

@@ -1,0 +1,137 @@
+#include "trace/kernels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "bindings.h"
+#include "upload/gpu_scene.h"
+
+namespace crosslight {
+
+using namespace shared;
+
+namespace {
+
+constexpr std::uint32_t kPacketLanes = 8;  // kLanes of shaders/accel/packet.glsl
+constexpr std::uint32_t kLightBatch = 16;
+
+struct Family {
+  KernelFamily family;
+  const char* name;
+  const char* text;
+};
+constexpr std::array kFamilies{
+    Family{KernelFamily::automatic, "auto", "what suits the device"},
+    Family{KernelFamily::perLane, "per-lane", "one ray per invocation through the binary tree"},
+    Family{KernelFamily::wide, "wide", "one ray per invocation through the tree of quantised nodes with four children"},
+    Family{KernelFamily::packet, "packet",
+           "camera rays in interval packets, shadow rays in packets, others one per invocation through wide nodes"}};
+
+const Family& rowOf(KernelFamily family) {
+  return *std::find_if(kFamilies.begin(), kFamilies.end(), [&](const Family& f) { return f.family == family; });
+}
+
+bool canRunPackets(const gpu::DeviceInfo& device) { return device.subgroupSize == kPacketLanes; }
+
+}  // namespace
+
+KernelFamily familyFor(const gpu::DeviceInfo& device) {
+  return device.isSoftware && canRunPackets(device) ? KernelFamily::packet : KernelFamily::perLane;
+}
+
+const char* nameOf(KernelFamily family) { return rowOf(family).name; }
+const char* describe(KernelFamily family) { return rowOf(family).text; }
+
+KernelFamily kernelFamilyOf(const std::string& name) {
+  std::string all;
+  for (const Family& f : kFamilies) {
+    if (name == f.name) return f.family;
+    all += (all.empty() ? "" : ", ") + std::string(f.name);
+  }
+  throw UsageError(fmt::format("no ray kernel '{}'; there are: {}", name, all));
+}
+
+bool branches(const Plan& plan) {
+  return plan.has(Effect::reflection) || plan.has(Effect::refraction) || plan.has(Effect::transparency);
+}
+
+KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings) {
+  KernelChoice choice;
+  choice.family = settings.kernel == KernelFamily::automatic ? familyFor(device) : settings.kernel;
+  const bool packets = choice.family == KernelFamily::packet;
+  if (packets && !canRunPackets(device)) {
+    throw DeviceError(
+        fmt::format("--kernel packet needs subgroups of {} lanes, those of '{}' have {}; --kernel auto takes {}",
+                    kPacketLanes, device.name, device.subgroupSize, nameOf(familyFor(device))));
+  }
+  const bool triangles =
+      plan.has(Effect::triangles) || !plan.has(Effect::shapes);  // something must say "nothing is hit"
+  const std::string perRay = choice.family == KernelFamily::perLane ? "intersect.comp" : "intersect.comp";
+  // A packet's code stands once per ray of a lane: where materials must be asked at every hit it is too long.
+  const bool cameraPackets = packets && triangles && !plan.has(Effect::alphaMask);
+  const bool shadowPackets = packets && triangles && !plan.has(Effect::alphaMask) && !plan.has(Effect::transparency) &&
+                             !plan.has(Effect::shapes);
+  if (triangles) choice.camera = cameraPackets ? "camera_interval.comp" : "camera.comp";
+  if (cameraPackets) choice.cameraRest = "camera.comp";
+  if (plan.has(Effect::shapes)) choice.shapes = "shapes.comp";
+  if (plan.has(Effect::shadows)) choice.shadow = shadowPackets ? "shadow_packet.comp" : "shadow.comp";
+  if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
+  if (branches(plan)) {
+    choice.gather = "gather.comp";
+    if (triangles && settings.maxDepth > 0) choice.secondary = perRay;
+  }
+  return choice;
+}
+
+std::uint32_t lightBatch(std::uint32_t lightCount) { return std::clamp(lightCount, 1u, kLightBatch); }
+
+namespace {
+
+std::uint32_t variantOf(const Scene& scene, const RenderSettings& settings) {
+  const bool orthographic = scene.cameras[static_cast<std::size_t>(settings.camera)].orthographic;
+  return (orthographic ? kVariantOrthographic : 0u) | (scene.lights.size() > kLightBatch ? kVariantManyLights : 0u);
+}
+
+}  // namespace
+
+KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan,
+                                 const RenderSettings& settings)
+    : device_(device),
+      plan_(plan),
+      variant_(variantOf(scene, settings)),
+      choice_(chooseKernels(device.info(), plan, settings)),
+      layout_(device,
+              sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
+                             kBindAovs, kBindRest},
+                            {kBindRayTexels, kBindHitTexels, kBindNodeTexels}),
+              sizeof(TracePush)) {
+  for (const std::string& name :
+       {choice_.camera, choice_.shadow, std::string("shade.comp"), choice_.shapes, choice_.secondary, choice_.gather}) {
+    if (name.empty() || pending_.contains(name)) continue;
+    pending_[name] = std::async(std::launch::async, [this, name] { return make(name, 0); });
+  }
+}
+
+gpu::ComputePipeline KernelPipelines::make(const std::string& kernel, std::uint32_t moreVariant) const {
+  return {device_, layout_, gpu::embeddedShader(kernel), constantsOf(plan_, variant_ | moreVariant)};
+}
+
+const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel) {
+  const auto found = pending_.find(kernel);
+  if (found != pending_.end()) {
+    ready_[kernel] = found->second.get();
+    pending_.erase(found);
+  }
+  return ready_.at(kernel);
+}
+
+const gpu::ComputePipeline& KernelPipelines::getRest(const std::string& kernel) {
+  gpu::ComputePipeline& pipeline = rest_[kernel];
+  if (!pipeline) pipeline = make(kernel, kVariantRest);
+  return pipeline;
+}
+
+}  // namespace crosslight

@@ -1,0 +1,69 @@
+// Which kernels trace which rays on a device, and their pipelines, made in threads while other work goes on.
+#pragma once
+
+#include <future>
+#include <map>
+#include <string>
+
+#include "effects/effects.h"
+#include "gpu/pipeline.h"
+#include "scene/settings.h"
+
+namespace crosslight {
+
+// Kernels for this device: what `devices` shows and `--kernel auto` takes. Packets need subgroups of 8 lanes, and pay
+// where a driver runs both sides of every branch.
+KernelFamily familyFor(const gpu::DeviceInfo& device);
+// UsageError for a name that is none.
+KernelFamily kernelFamilyOf(const std::string& name);
+const char* nameOf(KernelFamily family);
+const char* describe(KernelFamily family);
+
+// Files of the kernels that a plan runs; empty: no such pass.
+struct KernelChoice {
+  std::string camera;      // closest triangle of the camera's rays
+  std::string cameraRest;  // does again what packets gave up; empty: `camera` gives nothing up
+  std::string secondary;   // closest triangle of stored rays
+  std::string shapes;      // nearer analytic shapes
+  std::string shadow;
+  std::string shadowRest;
+  std::string gather;
+  KernelFamily family = KernelFamily::perLane;
+};
+// DeviceError when a forced family cannot run on this device.
+KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings);
+
+// Do surfaces send rays on?
+bool branches(const Plan& plan);
+
+// Rays that one workgroup of every kernel works on.
+inline constexpr std::uint32_t kRaysPerGroup = 64;
+
+// The pipelines of a choice, each made in a thread of its own: a driver takes 100 ms and more for the larger ones.
+class KernelPipelines {
+ public:
+  // All but `device` may go afterwards.
+  KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan, const RenderSettings& settings);
+  const KernelChoice& choice() const { return choice_; }
+  const gpu::BindingLayout& layout() const { return layout_; }
+  // Waits for it.
+  const gpu::ComputePipeline& get(const std::string& kernel);
+  // The variant that does only what packets gave up; made when it is first asked for, since few scenes need it.
+  const gpu::ComputePipeline& getRest(const std::string& kernel);
+
+ private:
+  gpu::ComputePipeline make(const std::string& kernel, std::uint32_t moreVariant) const;
+
+  const gpu::Device& device_;
+  Plan plan_;
+  std::uint32_t variant_;
+  KernelChoice choice_;
+  gpu::BindingLayout layout_;
+  std::map<std::string, std::future<gpu::ComputePipeline>> pending_;
+  std::map<std::string, gpu::ComputePipeline> ready_, rest_;
+};
+
+// Lights whose visibility is kept at once.
+std::uint32_t lightBatch(std::uint32_t lightCount);
+
+}  // namespace crosslight
