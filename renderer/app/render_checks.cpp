@@ -11,6 +11,7 @@
 #include "app/picture_layers.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "raster/strip.h"
 
 namespace crosslight {
 
@@ -50,10 +51,11 @@ std::uint64_t rowsOf(const RenderRequest& request) {
   return rows;
 }
 
-// Color, depth, resolved color and the depth of the AOVs; the raster methods draw into targets of the whole picture.
-std::uint64_t targetBytesPerPixel(const RenderSettings& s) {
+// Color, depth, resolved color and the depth of the AOVs, of one strip of a raster method.
+std::uint64_t targetBytes(const RenderSettings& s) {
   constexpr std::uint64_t kColor = 16, kDepth = 4;
-  return s.msaa * (kColor + kDepth) + (s.msaa > 1 ? kColor : 0) + (s.aovs.empty() ? 0 : kDepth);
+  const std::uint64_t perPixel = s.msaa * (kColor + kDepth) + (s.msaa > 1 ? kColor : 0) + (s.aovs.empty() ? 0 : kDepth);
+  return std::uint64_t{s.width} * rowsPerStrip(s.width, s.height, s.msaa) * perPixel;
 }
 
 // The number after `key` in a file like /proc/meminfo, or the file's first number without a key.
@@ -98,7 +100,7 @@ MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& reques
   MemoryNeed need;
   need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
   need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
-                            (isTraced(s.method) ? 0 : std::uint64_t{s.width} * s.height * targetBytesPerPixel(s));
+                            (isTraced(s.method) ? 0 : targetBytes(s));
   // A tree has about one node per triangle at the build's leaf sizes, and lists boxes and order while it is built.
   constexpr std::uint64_t kTreeBytes = 2 * sizeof(shared::BvhNode) + sizeof(shared::BvhPrimitive);
   constexpr std::uint64_t kBuildBytes = 64;

@@ -83,6 +83,8 @@ std::uint64_t filmBytes(const gpu::DeviceInfo& device, const FilmSettings& setti
 Film::Film(const gpu::Device& device, const FilmSettings& settings)
     : settings_(settings),
       bandRows_(rowsPerBand(device.info(), settings)),
+      single_(settings.offsets.size() == 1),
+      readsSample_(single_ && device.info().isSoftware),
       commands_(device),
       layout_(device, filmBindings(), sizeof(FilmPush)),
       set_(device, layout_) {
@@ -90,8 +92,11 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
   const std::uint64_t aovs = settings.wantAovs ? pixels : 1;
   buffers_.sampleColor = gpu::Buffer(device, "sample", pixels * sizeof(glm::vec4), gpu::useStorage);
   buffers_.aovs = gpu::Buffer(device, "AOV records", aovs * sizeof(AovRecord), gpu::useStorage | gpu::useReadback);
-  buffers_.film = gpu::Buffer(device, "film", pixels * sizeof(FilmPixel), gpu::useStorage | gpu::useReadback);
-  buffers_.parts = gpu::Buffer(device, "film parts", aovs * sizeof(FilmParts), gpu::useStorage | gpu::useReadback);
+  const std::uint64_t filmBytes =
+      readsSample_ ? sizeof(FilmPixel) : pixels * (single_ ? sizeof(glm::vec4) : sizeof(FilmPixel));
+  buffers_.film = gpu::Buffer(device, "film", filmBytes, gpu::useStorage | gpu::useReadback);
+  buffers_.parts =
+      gpu::Buffer(device, "film parts", (single_ ? 1 : aovs) * sizeof(FilmParts), gpu::useStorage | gpu::useReadback);
   buffers_.counters =
       gpu::Buffer(device, "counters", kCounterCount * sizeof(std::uint32_t), gpu::useStorage | gpu::useReadback);
   if (settings.wantAovs) {
@@ -103,7 +108,7 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
   set_.set(kBindFilm, buffers_.film);
   set_.set(kBindFilmParts, buffers_.parts);
   set_.set(kBindCounters, buffers_.counters);
-  accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"), {});
+  if (!single_) accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"), {});
   resetCounters();
 }
 
@@ -147,11 +152,11 @@ FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sin
     Stopwatch watch;
     renderBand(technique, band, tally, step);
     result.renderMs += watch.lapMs();
-    readBand(band, firstPixel, sink);
+    readBand(band, firstPixel, sink, result);
     result.readbackMs += watch.lapMs();
     firstPixel += std::size_t{band.rowCount} * settings_.width;
   }
-  readCounters(result);
+  if (!single_) readCounters(result);
   return result;
 }
 
@@ -162,7 +167,11 @@ void Film::renderBand(Technique& technique, const Band& band, Tally& tally, cons
   for (const glm::vec2& offset : settings_.offsets) {
     if (settings_.wantAovs) clearAovs(band);
     technique.renderSample({band, settings_.width, offset, true, settings_.wantAovs}, tally);
-    accumulate(band, first, tally);
+    if (single_) {
+      fetchSample(band);
+    } else {
+      accumulate(band, first, tally);
+    }
     first = false;
     step();
   }
@@ -200,15 +209,31 @@ void Film::accumulate(const Band& band, bool first, Tally& tally) {
   tally.add(commands_.spans());
 }
 
+// The one sample of a band to where the host reads it.
+void Film::fetchSample(const Band& band) {
+  if (readsSample_) return;
+  commands_.begin();
+  commands_.barrier();
+  commands_.copy(buffers_.sampleColor, 0, buffers_.film, 0,
+                 std::uint64_t{band.rowCount} * settings_.width * sizeof(glm::vec4));
+  commands_.barrier();
+  commands_.submitAndWait();
+}
+
 // In slices that stay in the cache between being read, divided and handed over.
-void Film::readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink) {
+void Film::readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result) {
   const std::size_t count = std::size_t{band.rowCount} * settings_.width;
   std::vector<glm::vec4> picture(std::min(count, kSlicePixels));
   std::vector<AovRecord> aovs(settings_.wantAovs ? picture.size() : 0);
   for (std::size_t first = 0; first < count; first += kSlicePixels) {
     const std::size_t length = std::min(kSlicePixels, count - first);
-    ExposedPixels pixels{firstPixel + first, std::span(picture).first(length)};
-    readPicture(first, std::span(picture).first(length));
+    const std::span<glm::vec4> slice = std::span(picture).first(length);
+    if (single_) {
+      readSample(first, slice, band.firstRow * settings_.width + static_cast<std::uint32_t>(first), result);
+    } else {
+      readMean(first, slice);
+    }
+    ExposedPixels pixels{firstPixel + first, slice};
     if (settings_.wantAovs) {
       readAovs(first, std::span(aovs).first(length));
       pixels.aovs = std::span(aovs).first(length);
@@ -217,7 +242,20 @@ void Film::readBand(const Band& band, std::size_t firstPixel, const PixelSink& s
   }
 }
 
-void Film::readPicture(std::size_t first, std::span<glm::vec4> picture) {
+// As the kernel and the mean would have it: zeros are positive, and pixels with a value that is not finite are counted.
+void Film::readSample(std::size_t first, std::span<glm::vec4> picture, std::uint32_t firstPixel, FilmResult& result) {
+  const gpu::Buffer& from = readsSample_ ? buffers_.sampleColor : buffers_.film;
+  from.read(first * sizeof(glm::vec4), std::as_writable_bytes(picture));
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    glm::vec4& p = picture[i];
+    p += 0.0f;
+    const float sum = p.x * 0.0f + p.y * 0.0f + p.z * 0.0f + p.w * 0.0f;  // NaN unless all four are finite
+    if (sum == 0.0f) continue;
+    if (result.nonfinite++ == 0) result.firstNonfinitePixel = firstPixel + static_cast<std::uint32_t>(i);
+  }
+}
+
+void Film::readMean(std::size_t first, std::span<glm::vec4> picture) {
   const auto samples = static_cast<double>(settings_.offsets.size());
   pixels_.resize(picture.size());
   buffers_.film.read(first * sizeof(FilmPixel), std::as_writable_bytes(std::span(pixels_)));
@@ -231,6 +269,7 @@ void Film::readPicture(std::size_t first, std::span<glm::vec4> picture) {
 
 void Film::readAovs(std::size_t first, std::span<AovRecord> aovs) {
   buffers_.aovs.read(first * sizeof(AovRecord), std::as_writable_bytes(aovs));
+  if (single_) return;  // its parts are their own means
   parts_.resize(aovs.size());
   buffers_.parts.read(first * sizeof(FilmParts), std::as_writable_bytes(std::span(parts_)));
   const auto scale = static_cast<float>(1.0 / static_cast<double>(settings_.offsets.size()));

@@ -23,7 +23,7 @@ struct Band {
   std::uint32_t rowCount = 0;
 };
 
-// Per-pixel buffers of the largest band. `aovs`, `parts` hold one dummy record when no AOV is asked for.
+// Per-pixel buffers of the largest band. Those that nobody needs hold one dummy record.
 struct FilmBuffers {
   gpu::Buffer sampleColor, aovs, film, parts, counters;
 };
@@ -94,13 +94,17 @@ class Film {
   void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step);
   void clearAovs(const Band& band);
   void accumulate(const Band& band, bool first, Tally& tally);
-  void readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink);
-  void readPicture(std::size_t first, std::span<glm::vec4> picture);
+  void fetchSample(const Band& band);
+  void readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result);
+  void readMean(std::size_t first, std::span<glm::vec4> picture);
+  void readSample(std::size_t first, std::span<glm::vec4> picture, std::uint32_t firstPixel, FilmResult& result);
   void readAovs(std::size_t first, std::span<shared::AovRecord> aovs);
   void readCounters(FilmResult& result);
 
   FilmSettings settings_;
   std::uint32_t bandRows_ = 0;
+  bool single_ = false;       // one sample: it is the mean, and nothing is summed on the device
+  bool readsSample_ = false;  // single, and the host reaches the sample where it lies
   FilmBuffers buffers_;
   gpu::Buffer emptyAovs_;  // "nothing was hit", a few records; only when AOVs are wanted
   gpu::Commands commands_;
