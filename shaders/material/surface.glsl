@@ -94,7 +94,7 @@ SurfacePoint surfaceAt(SurfaceInput at) {
   s.transmissionColor = vec3(m.transmission);
 
   bool flip = CL_HAS(twoSided) && !at.frontFacing &&
-              (at.bothSides || (m.flags & kMaterialDoubleSided) != 0u || frame.twoSided != 0u);
+              (at.bothSides || ((m.flags & kMaterialDoubleSided) | frame.twoSided) != 0u);
   s.ng = flip ? -at.geometricNormal : at.geometricNormal;
   vec3 n = safeNormalize(at.normal, at.geometricNormal);
 #ifndef CL_UNTEXTURED

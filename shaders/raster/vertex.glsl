@@ -6,6 +6,7 @@
 // texture varies, which OpenGL does not have.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
+#define CL_VERTEX_STAGE
 #include "raster/draw.glsl"
 #define CL_UNTEXTURED
 #include "shade/shade.glsl"
@@ -25,11 +26,11 @@ invariant gl_Position;
 #ifdef CL_SUMS_MODE
 LightSums lightVertex(bool frontFacing) {
   SurfaceInput at = SurfaceInput(inPosition, inNormal, safeNormalize(inNormal, vec3(0.0, 0.0, 1.0)), inTangent, inUv0,
-                                 inUv1, inColor, pushed.materialId, frontFacing, (pushed.drawFlags & kDrawHasColors) != 0u, false);
+                                 inUv1, inColor, draws[pushed.drawId].materialId, frontFacing, (draws[pushed.drawId].flags & kDrawHasColors) != 0u, false);
   SurfacePoint s = surfaceAt(at);
   LightSums sums = illuminate(s, viewDirection(inPosition), 0u, drawnLightCount());
-  bool whole = !kSeparateSums && (kClampsColors || !colorsVary(drawMaterial, at.colored));
-  if (kClampsColors && CL_HAS(emissiveTexture) && hasTexture(drawMaterial.emissiveTexture)) s.emission = vec3(0.0);
+  bool whole = !kSeparateSums && (kClampsColors || !colorsVary(materials[at.materialId], at.colored));
+  if (kClampsColors && CL_HAS(emissiveTexture) && hasTexture(materials[at.materialId].emissiveTexture)) s.emission = vec3(0.0);
   vec3 color = sumOf(compose(s, sums, frame.ambient));
   if (kClampsColors) color = clamp(color, 0.0, 1.0);
   if (whole) sums.ambient = color;

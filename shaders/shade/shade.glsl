@@ -57,7 +57,9 @@ vec3 sumOf(ShadedParts parts) { return parts.ambient + parts.diffuse + parts.spe
 // Unit vector towards the viewer: the camera stands at the render space's origin. OpenGL's infinite viewer looks from
 // the same side at every point; an orthographic camera does anyway.
 vec3 viewDirection(vec3 renderPos) {
-  bool fixedViewer = frame.infiniteViewer != 0u || frame.orthographic != 0u;
-  return fixedViewer ? -frame.cameraForward : safeNormalize(-renderPos, -frame.cameraForward);
+  bool fixedViewer = (frame.infiniteViewer | frame.orthographic) != 0u;
+  vec3 ahead = -frame.cameraForward;
+  vec3 towards = safeNormalize(-renderPos, ahead);
+  return mix(towards, ahead, bvec3(fixedViewer));  // chosen, not branched on: see raster/draw.glsl
 }
 #endif
