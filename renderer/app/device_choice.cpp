@@ -5,12 +5,10 @@
 #include "app/command_line.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "trace/kernels.h"
 
 namespace crosslight {
 namespace {
-
-// The only family of ray kernels so far: every invocation walks the tree for its own ray.
-constexpr const char* kKernelFamily = "per-lane";
 
 std::string inMiB(std::uint64_t bytes) { return fmt::format("{} MiB", bytes >> 20); }
 
@@ -61,8 +59,9 @@ std::string deviceTable(const std::vector<gpu::DeviceReport>& reports) {
     text += fmt::format("   limits   image {0}x{0}, storage buffer {1}, device-local memory {2}, MSAA {3}\n",
                         info.maxImageSize, inMiB(info.maxStorageBufferBytes), inMiB(info.deviceLocalBytes),
                         fmt::join(counts, " "));
-    text += fmt::format("   compute  subgroups of {}, float64 {}, timestamps {}, kernels {}\n", info.subgroupSize,
-                        info.hasFloat64 ? "yes" : "no", info.timestampPeriodNs > 0 ? "yes" : "no", kKernelFamily);
+    text += fmt::format("   compute  subgroups of {}, float64 {}, timestamps {}, kernels {} ({})\n", info.subgroupSize,
+                        info.hasFloat64 ? "yes" : "no", info.timestampPeriodNs > 0 ? "yes" : "no",
+                        nameOf(familyFor(info)), describe(familyFor(info)));
   }
   return text;
 }
@@ -78,7 +77,7 @@ Json deviceJson(const gpu::DeviceReport& report) {
   json["softwareDriver"] = info.isSoftware;
   json["usable"] = report.usable();
   json["refusals"] = report.refusals;
-  json["kernels"] = report.usable() ? Json(kKernelFamily) : Json(nullptr);
+  json["kernels"] = report.usable() ? Json(nameOf(familyFor(info))) : Json(nullptr);
   json["limits"] = {{"maxImageSize", info.maxImageSize},
                     {"maxStorageBufferBytes", info.maxStorageBufferBytes},
                     {"maxTexelBufferElements", info.maxTexelBufferElements},

@@ -14,6 +14,7 @@
 #include "app/set_keys.h"
 #include "app/suggest.h"
 #include "base/log.h"
+#include "trace/kernels.h"
 
 namespace crosslight {
 namespace {
@@ -89,6 +90,10 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
   line.whole(command, "--seed", o.seed, "N", 0, std::numeric_limits<std::uint64_t>::max(),
              "Seed of all random numbers; the same seed gives the same bits")
       ->group("Sampling");
+  noteGiven(line.choice(command, "--kernel", o.kernel, kernelFamilyNames(),
+                        "Ray kernels (whitted): one ray per invocation, or packets; all make the same image")
+                ->group("Sampling"),
+            o.kernelGiven);
 }
 
 void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
@@ -166,6 +171,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.msaa = 1u << indexIn(kMsaaCounts, o.msaa);
   settings.maxDepth = o.maxDepth;
   settings.seed = o.seed;
+  settings.kernel = kernelFamilyOf(o.kernel);
   settings.allEffects = o.effects == "all";
   settings.allowNonfinite = o.allowNonfinite;
   for (const std::string& pair : o.set) {
@@ -178,6 +184,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   const bool rays = settings.method == Method::whitted;
   if (rays && o.msaaGiven) warnUnheeded("--msaa", o);
   if (!rays && o.maxDepthGiven) warnUnheeded("--max-depth", o);
+  if (!rays && o.kernelGiven) warnUnheeded("--kernel", o);
   settings.aovs = aovsOf(o.aovs);
   const bool layered = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
   if (!settings.aovs.empty() && !layered) {

@@ -32,6 +32,8 @@ struct RenderOptions {
   std::uint32_t maxDepth = 5;
   bool maxDepthGiven = false;
   std::uint64_t seed = 0;
+  std::string kernel = "auto";
+  bool kernelGiven = false;
   std::vector<std::string> set;
   std::string effects = "auto";
   std::string aovs;

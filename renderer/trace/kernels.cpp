@@ -26,9 +26,8 @@ struct Family {
 constexpr std::array kFamilies{
     Family{KernelFamily::automatic, "auto", "what suits the device"},
     Family{KernelFamily::perLane, "per-lane", "one ray per invocation through the binary tree"},
-    Family{KernelFamily::wide, "wide", "one ray per invocation through the tree of quantised nodes with four children"},
     Family{KernelFamily::packet, "packet",
-           "camera rays in interval packets, shadow rays in packets, others one per invocation through wide nodes"}};
+           "camera rays in interval packets, shadow rays in packets, others one per invocation"}};
 
 const Family& rowOf(KernelFamily family) {
   return *std::find_if(kFamilies.begin(), kFamilies.end(), [&](const Family& f) { return f.family == family; });
@@ -44,6 +43,12 @@ KernelFamily familyFor(const gpu::DeviceInfo& device) {
 
 const char* nameOf(KernelFamily family) { return rowOf(family).name; }
 const char* describe(KernelFamily family) { return rowOf(family).text; }
+
+std::vector<std::string> kernelFamilyNames() {
+  std::vector<std::string> names;
+  for (const Family& f : kFamilies) names.emplace_back(f.name);
+  return names;
+}
 
 KernelFamily kernelFamilyOf(const std::string& name) {
   std::string all;
@@ -69,7 +74,6 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   }
   const bool triangles =
       plan.has(Effect::triangles) || !plan.has(Effect::shapes);  // something must say "nothing is hit"
-  const std::string perRay = choice.family == KernelFamily::perLane ? "intersect.comp" : "intersect.comp";
   // A packet's code stands once per ray of a lane: where materials must be asked at every hit it is too long.
   const bool cameraPackets = packets && triangles && !plan.has(Effect::alphaMask);
   const bool shadowPackets = packets && triangles && !plan.has(Effect::alphaMask) && !plan.has(Effect::transparency) &&
@@ -81,7 +85,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
   if (branches(plan)) {
     choice.gather = "gather.comp";
-    if (triangles && settings.maxDepth > 0) choice.secondary = perRay;
+    if (triangles && settings.maxDepth > 0) choice.secondary = "intersect.comp";
   }
   return choice;
 }

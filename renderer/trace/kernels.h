@@ -4,6 +4,7 @@
 #include <future>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "effects/effects.h"
 #include "gpu/pipeline.h"
@@ -16,6 +17,7 @@ namespace crosslight {
 KernelFamily familyFor(const gpu::DeviceInfo& device);
 // UsageError for a name that is none.
 KernelFamily kernelFamilyOf(const std::string& name);
+std::vector<std::string> kernelFamilyNames();
 const char* nameOf(KernelFamily family);
 const char* describe(KernelFamily family);
 

@@ -209,6 +209,7 @@ namespace {
 void append(const Bvh& tree, FlatBvh& all) {
   const auto firstNode = static_cast<std::uint32_t>(all.nodes.size());
   const auto firstPrimitive = static_cast<std::uint32_t>(all.primitives.size());
+  all.nodes.reserve(all.nodes.size() + tree.nodes.size());
   const auto moved = [&](std::uint32_t child) {
     if (!bvhIsLeaf(child)) return child + firstNode;
     return bvhLeafCount(child) == 0 ? child : child + firstPrimitive;
@@ -219,14 +220,6 @@ void append(const Bvh& tree, FlatBvh& all) {
     if (node.parent != shared::kNoId) node.parent += firstNode;
     all.nodes.push_back(node);
   }
-}
-
-std::vector<Bounds> triangleBounds(const FlatScene& flat) {
-  std::vector<Bounds> boxes(flat.triangleCount());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) boxes[i].add(flat.positions[flat.indices[3 * i + k]]);
-  }
-  return boxes;
 }
 
 std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
@@ -245,12 +238,13 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
     const shared::DrawRecord& draw = flat.draws[drawId];
     return primitiveFlags(scene.materials[draw.materialId], draw.flags, settings);
   };
-  const Bvh triangles = buildBvh(triangleBounds(flat));
+  const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
   append(triangles, result);
   WideBvh wide = widen(triangles);
   result.wideNodes = std::move(wide.nodes);
   result.wideDepth = wide.maxDepth;
   const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
+  result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
   for (const std::uint32_t t : triangles.order) {
     const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
     result.primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flagsOf(drawOf[t])});

@@ -157,13 +157,16 @@ WalkRay walkRayOf(Ray ray) {
   return WalkRay(ray, inverse, lessThan(inverse, vec3(0.0)));
 }
 
-// Goes down from walk.next until a leaf, or the walk's end, is next.
+bool atInnerNode(Walk walk) { return (walk.next & kBvhLeaf) == 0u && walk.steps < kLargestWalk; }
+
+// Goes down from walk.next until a leaf, or the walk's end, is next. Loops test at their end: llvmpipe runs a body once
+// more before it notices that a loop is over.
 void walkToLeaf(WalkRay w, float tMax, inout Walk walk) {
   w.ray.tMax = tMax;
-  while ((walk.next & kBvhLeaf) == 0u && walk.steps < kLargestWalk) {
-    descend(w.ray, w.inverse, w.negative, walk);
+  do {
+    if (atInnerNode(walk)) descend(w.ray, w.inverse, w.negative, walk);
     ++walk.steps;
-  }
+  } while (atInnerNode(walk));
 }
 
 uint leafCount(Walk walk) { return walk.next == kWalkDone ? 0u : (walk.next >> kBvhCountShift) & 15u; }
@@ -193,13 +196,17 @@ HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
   Walk walk = Walk(0u, 0, 0u);
-  while (goesOn(walk)) {
+  do {
     walkToLeaf(w, boundOf(best, ray), walk);
     uint count = leafCount(walk);
-    uint firstSlot = walk.next & kBvhFirstMask;
-    for (uint i = 0u; i < count; ++i) considerTriangle(firstSlot + i, ray, shear, cutBackFaces, best);
+    uint slot = walk.next & kBvhFirstMask;
+    uint end = slot + count;
+    do {
+      if (slot < end) considerTriangle(slot, ray, shear, cutBackFaces, best);
+      ++slot;
+    } while (slot < end);
     leaveLeaf(count, walk);
-  }
+  } while (goesOn(walk));
   countCapped(walk);
   return best.hit;
 }
@@ -255,13 +262,19 @@ float lightPassed(Ray ray) {
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
   Walk walk = Walk(CL_HAS(triangles) ? 0u : kWalkDone, 0, 0u);
-  while (CL_HAS(triangles) && goesOn(walk)) {
-    walkToLeaf(w, ray.tMax, walk);
-    uint count = leafCount(walk);
-    uint firstSlot = walk.next & kBvhFirstMask;
-    for (uint i = 0u; i < count; ++i) passed *= lightPassedTriangle(firstSlot + i, ray, shear);
-    leaveLeaf(count, walk);
-    if (passed == 0.0) walk.next = kWalkDone;
+  if (CL_HAS(triangles)) {
+    do {
+      walkToLeaf(w, ray.tMax, walk);
+      uint count = leafCount(walk);
+      uint slot = walk.next & kBvhFirstMask;
+      uint end = slot + count;
+      do {
+        if (slot < end) passed *= lightPassedTriangle(slot, ray, shear);
+        ++slot;
+      } while (slot < end);
+      leaveLeaf(count, walk);
+      if (passed == 0.0) walk.next = kWalkDone;
+    } while (goesOn(walk));
   }
   countCapped(walk);
   if (CL_HAS(shapes)) {

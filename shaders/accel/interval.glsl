@@ -47,12 +47,12 @@ void testChildren(Interval packet, float bound, inout WideWalk walk) {
   vec3 lower = uintBitsToFloat(a.xyz), upper = uintBitsToFloat(b.xyz);
   vec3 nearBy = mix(lower, upper, packet.negative) - packet.nearOrigin;
   vec3 farBy = mix(upper, lower, packet.negative) - packet.farOrigin;
-  vec3 near = min(nearBy * packet.lowInverse, nearBy * packet.highInverse);
-  vec3 far = max(farBy * packet.lowInverse, farBy * packet.highInverse);
-  float t0 = max(max(near.x, near.y), max(near.z, packet.tMin));
-  float t1 = min(min(far.x, far.y), far.z) * kWiden;
-  bool meets = t0 <= min(t1, bound) && a.w != kEmptyChild && ((walk.pending >> lane()) & 1u) != 0u;
-  walk.key = meets ? (floatBitsToUint(max(t0, 0.0)) & ~7u) | lane() : kNothing;
+  vec3 near = smaller(nearBy * packet.lowInverse, nearBy * packet.highInverse);
+  vec3 far = greater(farBy * packet.lowInverse, farBy * packet.highInverse);
+  float t0 = greater(greater(near.x, near.y), greater(near.z, packet.tMin));
+  float t1 = smaller(smaller(far.x, far.y), far.z) * kWiden;
+  bool meets = t0 <= smaller(t1, bound) && a.w != kEmptyChild && ((walk.pending >> lane()) & 1u) != 0u;
+  walk.key = meets ? (floatBitsToUint(greater(t0, 0.0)) & ~7u) | lane() : kNothing;
   walk.child = a.w;
 }
 
@@ -96,7 +96,7 @@ void considerForInterval(uint slot, bool there, bool cutBackFaces, uint axis) {
 
 float farthestBound() {
   float bound = -kLargest;
-  [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) bound = max(bound, active_[k] ? bounds_[k] : -kLargest);
+  [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) bound = greater(bound, active_[k] ? bounds_[k] : -kLargest);
   return maxOverLanes(bound);
 }
 
@@ -106,11 +106,11 @@ Interval intervalOfClass(uint which) {
   float tMin = kLargest;
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
     active_[k] = classes_[k] == which;
-    lowOrigin = active_[k] ? min(lowOrigin, origins_[k]) : lowOrigin;
-    highOrigin = active_[k] ? max(highOrigin, origins_[k]) : highOrigin;
-    low = active_[k] ? min(low, inverses_[k]) : low;
-    high = active_[k] ? max(high, inverses_[k]) : high;
-    tMin = active_[k] ? min(tMin, starts_[k]) : tMin;
+    lowOrigin = active_[k] ? smaller(lowOrigin, origins_[k]) : lowOrigin;
+    highOrigin = active_[k] ? greater(highOrigin, origins_[k]) : highOrigin;
+    low = active_[k] ? smaller(low, inverses_[k]) : low;
+    high = active_[k] ? greater(high, inverses_[k]) : high;
+    tMin = active_[k] ? smaller(tMin, starts_[k]) : tMin;
   }
   lowOrigin = CL_ORIGIN_ZERO ? vec3(0.0) : minOverLanes(lowOrigin);
   highOrigin = CL_ORIGIN_ZERO ? vec3(0.0) : maxOverLanes(highOrigin);

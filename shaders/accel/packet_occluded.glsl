@@ -24,9 +24,9 @@ bool entersBox(vec3 nearPlanes, vec3 farPlanes, int k) {
   const float kWiden = 1.00000036;  // 1 + 2 gamma_3
   vec3 near = (nearPlanes - rays_[k].origin) * inverses_[k];
   vec3 far = (farPlanes - rays_[k].origin) * inverses_[k];
-  float t0 = max(max(near.x, near.y), max(near.z, 0.0));
-  float t1 = min(min(far.x, far.y), far.z) * kWiden;
-  return t0 <= min(t1, ends_[k]);
+  float t0 = greater(greater(near.x, near.y), greater(near.z, 0.0));
+  float t1 = smaller(smaller(far.x, far.y), far.z) * kWiden;
+  return t0 <= smaller(t1, ends_[k]);
 }
 
 // Both children of an inner node. Lanes 0 and 1 hold the first child's corners, 2 and 3 the second's.

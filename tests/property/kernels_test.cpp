@@ -1,0 +1,93 @@
+// Packets or one ray per lane: the same image, bit for bit, and the same counts of rays.
+#include "trace/kernels.h"
+#include "scene/shape_mesh.h"
+#include "support/render_fixture.h"
+
+namespace crosslight::testing {
+namespace {
+
+struct Pair {
+  RenderResult perLane, packet;
+};
+
+Pair renderByBoth(const Scene& scene, RenderSettings settings) {
+  settings.kernel = KernelFamily::perLane;
+  RenderResult perLane = render(device(), scene, settings);
+  settings.kernel = KernelFamily::packet;
+  return {std::move(perLane), render(device(), scene, settings)};
+}
+
+void expectEqual(const Pair& pair) {
+  const Difference d =
+      largestDifference(pair.perLane.image, pair.packet.image, [](std::uint32_t, std::uint32_t) { return true; });
+  EXPECT_TRUE(pair.perLane.image.picture().samples == pair.packet.image.picture().samples) << d;
+  EXPECT_EQ(pair.perLane.report.rays, pair.packet.report.rays);
+  EXPECT_EQ(pair.perLane.report.counters.at("traversalsCapped"), 0u);
+  EXPECT_EQ(pair.packet.report.counters.at("traversalsCapped"), 0u);
+}
+
+bool deviceRunsPackets() { return device().info().subgroupSize == 8; }
+
+class Kernels : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!deviceRunsPackets()) GTEST_SKIP() << "packets need subgroups of 8 lanes";
+  }
+};
+
+// A size that no tile divides, so that tiles overhang both edges.
+TEST_P(Kernels, makeTheSameImage) {
+  RenderSettings settings = settingsFor(Method::whitted, 61, 43);
+  settings.spp = 2;
+  expectEqual(renderByBoth(sceneNamed(GetParam()), settings));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, Kernels, ::testing::ValuesIn(allSceneNames()), [](const auto& i) {
+  std::string name = i.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+// A sphere of triangles that stands in a few pixels: a packet would meet all of them.
+Scene distantDenseSphere() {
+  Scene scene;
+  scene.source = "made in a test";
+  scene.meshes.push_back({"dense", {tessellateShape(ShapeKind::sphere, glm::vec4(1), 256, 0)}});
+  scene.materials.emplace_back().doubleSided = true;
+  MeshInstance& far = scene.instances.emplace_back();
+  far.worldFromObject[3] = glm::dvec4(0.1, 0.2, -30, 1);
+  scene.instanceCount = 1;
+  scene.cameras.emplace_back();
+  Light& light = scene.lights.emplace_back();
+  light.type = LightType::directional;
+  return scene;
+}
+
+TEST(GivenUp, packetsLeaveTheirRaysToBeDoneOneByOne) {
+  if (!deviceRunsPackets()) GTEST_SKIP() << "packets need subgroups of 8 lanes";
+  const Scene scene = distantDenseSphere();
+  const Pair pair = renderByBoth(scene, settingsFor(Method::whitted, 64, 64));
+  EXPECT_GT(pair.packet.report.counters.at("packetsGivenUp"), 0u);
+  expectEqual(pair);
+}
+
+TEST(Families, haveNamesThatLeadBack) {
+  for (const std::string& name : kernelFamilyNames()) EXPECT_EQ(nameOf(kernelFamilyOf(name)), name);
+  EXPECT_THROW(kernelFamilyOf("pocket"), std::exception);
+}
+
+TEST(Families, packetsAreRefusedWhereSubgroupsAreNotOfEight) {
+  gpu::DeviceInfo wide;
+  wide.name = "a GPU";
+  wide.subgroupSize = 32;
+  EXPECT_EQ(familyFor(wide), KernelFamily::perLane);
+  RenderSettings settings;
+  settings.kernel = KernelFamily::packet;
+  EXPECT_THROW(chooseKernels(wide, Plan{}, settings), std::exception);
+  settings.kernel = KernelFamily::automatic;
+  EXPECT_EQ(chooseKernels(wide, Plan{}, settings).camera, "camera.comp");
+}
+
+}  // namespace
+}  // namespace crosslight::testing
