@@ -13,11 +13,12 @@ namespace crosslight::bench {
 
 struct Bench {
   RoundOptions rounds;
-  bool quick = false;             // sizes for a smoke test: the figures mean nothing
-  bool large = false;             // a million triangles too
-  std::filesystem::path program;  // crosslight, for `start`
-  std::filesystem::path scenes;   // the repository's scenes/
-  std::filesystem::path scratch;  // a folder of this run's own, removed at the end
+  bool quick = false;              // sizes for a smoke test: the figures mean nothing
+  bool large = false;              // a million triangles too
+  std::filesystem::path program;   // crosslight, for the suites that start it
+  std::filesystem::path scenes;    // the repository's scenes/
+  std::filesystem::path pictures;  // a folder that gets the pictures of `peers`; empty: nowhere
+  std::filesystem::path scratch;   // a folder of this run's own, removed at the end
   std::function<const gpu::Device&()> device;
   Report report;
 };
@@ -28,6 +29,8 @@ void benchBvh(Bench& bench);
 void benchRays(Bench& bench);
 void benchRaster(Bench& bench);
 void benchStart(Bench& bench);
+void benchPeers(Bench& bench);
+void benchGrowth(Bench& bench);
 
 inline constexpr const char* kNoEmbree =
     "this build has no Embree: install libembree-dev (ci/setup test) and configure anew";

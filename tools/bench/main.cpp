@@ -1,5 +1,4 @@
-// crosslight_bench [load|bvh|rays|raster|start]...: the benchmarks against peers; see README.md. Wires, and nothing
-// more.
+// crosslight_bench [SUITE]...: the benchmarks against peers; see README.md. Wires, and nothing more.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include "bench/cpu_time.h"
 #include "bench/embree_peer.h"
 #include "bench/osmesa_peer.h"
+#include "bench/peer_programs.h"
 
 namespace crosslight::bench {
 namespace {
@@ -24,24 +24,28 @@ namespace {
 struct Suite {
   const char* name;
   void (*run)(Bench&);
+  bool onlyNamed = false;  // many minutes: not part of "all"
 };
-constexpr Suite kSuites[] = {
-    {"load", benchLoad}, {"bvh", benchBvh}, {"rays", benchRays}, {"raster", benchRaster}, {"start", benchStart}};
+constexpr Suite kSuites[] = {{"load", benchLoad},          {"bvh", benchBvh},     {"rays", benchRays},
+                             {"raster", benchRaster},      {"start", benchStart}, {"peers", benchPeers, true},
+                             {"growth", benchGrowth, true}};
 
 constexpr const char* kUsage =
-    "usage: crosslight_bench [load|bvh|rays|raster|start]... --scenes DIR [option]...   all when none is named\n"
+    "usage: crosslight_bench [load|bvh|rays|raster|start|peers|growth]... --scenes DIR [option]...\n"
+    "when none is named, all but peers and growth\n"
     "  --json FILE|-    write a record too; '-' is stdout, the table then goes to stderr\n"
     "  --rounds N       rounds that count, after 2 to warm up; 9 at least for a result (15)\n"
-    "  --large          a million triangles too\n"
+    "  --large          a million triangles too; ten million in growth\n"
+    "  --pictures DIR   keep the pictures of peers\n"
     "  --quick          tiny sizes: does it run at all?\n"
     "  --device NAME    as in 'crosslight render'\n"
-    "  --program FILE   crosslight, for 'start' (beside this program)\n"
+    "  --program FILE   crosslight, for start, peers and growth (beside this program)\n"
     "  --peers          say which peers this build has, and end\n";
 
 struct Options {
   std::vector<const Suite*> suites;
   std::string json, device;
-  std::filesystem::path scenes, program;
+  std::filesystem::path scenes, program, pictures;
   std::size_t rounds = 15;
   bool quick = false, large = false, peers = false, help = false;
 };
@@ -81,6 +85,8 @@ Options parse(const std::vector<std::string>& words) {
       o.program = value();
     else if (word == "--scenes")
       o.scenes = value();
+    else if (word == "--pictures")
+      o.pictures = value();
     else if (word == "--quick")
       o.quick = true;
     else if (word == "--large")
@@ -93,7 +99,9 @@ Options parse(const std::vector<std::string>& words) {
       o.suites.push_back(suiteNamed(word));
   }
   if (o.suites.empty()) {
-    for (const Suite& suite : kSuites) o.suites.push_back(&suite);
+    for (const Suite& suite : kSuites) {
+      if (!suite.onlyNamed) o.suites.push_back(&suite);
+    }
   }
   return o;
 }
@@ -140,6 +148,9 @@ Json recordOf(const Bench& bench, const std::vector<std::string>& words, const g
   record["peers"] = {{"embree", embreeAvailable() ? Json(embreeVersion()) : Json(nullptr)},
                      {"osmesa", osmesaAvailable()},
                      {"tinygltf", true}};
+  for (const auto& [peer, version] : peerVersions(bench.scratch)) {
+    record["peers"][peer] = version ? Json(*version) : Json(nullptr);
+  }
   bench.report.writeTo(record);
   return record;
 }
@@ -168,6 +179,7 @@ int runSuites(const Options& options, const std::filesystem::path& self, const s
   bench.large = options.large;
   bench.program = options.program.empty() ? self.parent_path() / "crosslight" : options.program;
   bench.scenes = options.scenes;
+  bench.pictures = options.pictures;
   bench.scratch = scratch.path();
   bench.device = [&]() -> const gpu::Device& {
     gpu::DeviceOptions wanted;
