@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <optional>
 
 #include "app/output.h"
@@ -127,6 +128,13 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+std::string utcDate() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  return fmt::format("{}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
+}
+
 std::string loadAverage() {
   double average[3] = {};
   if (getloadavg(average, 3) != 3) return "unknown";
@@ -136,7 +144,8 @@ std::string loadAverage() {
 Json recordOf(const Bench& bench, const std::vector<std::string>& words, const gpu::Device* device,
               const Times& timesMs, const std::string& loadAtStart) {
   Json record = newRecord({"bench", words, kRaySeed, device ? &device->info() : nullptr, timesMs});
-  record["settings"] = {{"rounds", bench.rounds.rounds},
+  record["settings"] = {{"date", utcDate()},
+                        {"rounds", bench.rounds.rounds},
                         {"warmUps", bench.rounds.warmUps},
                         {"shortestRoundSeconds", bench.rounds.shortestSeconds},
                         {"quick", bench.quick},
