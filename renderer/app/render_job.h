@@ -34,7 +34,7 @@ struct RenderReport {
   std::uint64_t deviceBytes = 0;                  // peak
   std::string promise;                            // light paths that the method computes, Heckbert's notation
   std::string pixelFilter;                        // in words
-  std::vector<std::string> reused;                // of the session: "scene", "film"
+  std::vector<std::string> reused;                // of the session: "scene", "film", "kernels"
 };
 
 struct RenderResult {

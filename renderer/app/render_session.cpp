@@ -127,10 +127,14 @@ struct RenderSession::Impl {
   PlacedScene& place(const RenderRequest& request, RenderReport& report, Phases& phases);
   void make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases);
   Film& filmFor(const FilmSettings& settings, RenderReport& report);
+  std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, RenderReport& report);
+  std::unique_ptr<Technique> techniqueFor(const Plan& plan, PlacedScene& placed, FilmBuffers& buffers,
+                                          const std::shared_ptr<KernelPipelines>& tracing);
 
   gpu::Device& device;
   std::list<PlacedScene> scenes;  // the latest first
   PlacedFilm film;
+  std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
 };
 
 void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases) {
@@ -188,6 +192,25 @@ Film& RenderSession::Impl::filmFor(const FilmSettings& settings, RenderReport& r
   return *film.film;
 }
 
+// Begun before the scene is placed: a driver takes about as long for the kernels as the tree takes to build.
+std::shared_ptr<KernelPipelines> RenderSession::Impl::kernelsFor(const RenderRequest& request, const Plan& plan,
+                                                                 RenderReport& report) {
+  if (!isTraced(request.settings.method)) return nullptr;
+  if (kernels != nullptr && kernels->serve(device.info(), *request.scene, plan, request.settings)) {
+    report.reused.push_back("kernels");
+    return kernels;
+  }
+  kernels = std::make_shared<KernelPipelines>(device, *request.scene, plan, request.settings);
+  return kernels;
+}
+
+std::unique_ptr<Technique> RenderSession::Impl::techniqueFor(const Plan& plan, PlacedScene& placed,
+                                                             FilmBuffers& buffers,
+                                                             const std::shared_ptr<KernelPipelines>& tracing) {
+  if (tracing == nullptr) return makeRaster(device, *placed.onDevice, plan, placed.settings, buffers);
+  return makeWhittedWith(tracing, device, *placed.onDevice, plan, placed.settings, buffers);
+}
+
 RenderSession::RenderSession(gpu::Device& device) : impl_(std::make_unique<Impl>(device)) {}
 RenderSession::~RenderSession() = default;
 
@@ -207,6 +230,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
 
   const Plan plan = makePlan(scene, settings);
   warnOfApproximations(scene, plan, settings);
+  const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, report);
   PlacedScene& placed = impl_->place(request, report, phases);
   report.counters = placed.counters;
   Film& film = impl_->filmFor(
@@ -214,9 +238,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
        !settings.aovs.empty(), request.rows},
       report);
   phases.lap("upload");
-  const auto makeTechnique = isTraced(settings.method) ? makeWhitted : makeRaster;
-  const std::unique_ptr<Technique> technique =
-      makeTechnique(impl_->device, *placed.onDevice, plan, placed.settings, film.buffers());
+  const std::unique_ptr<Technique> technique = impl_->techniqueFor(plan, placed, film.buffers(), kernels);
   phases.lap("pipelines");
   Tally tally;
   const auto rows = static_cast<std::uint32_t>(film.exposedPixels() / settings.width);

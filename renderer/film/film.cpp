@@ -108,7 +108,9 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
   set_.set(kBindFilm, buffers_.film);
   set_.set(kBindFilmParts, buffers_.parts);
   set_.set(kBindCounters, buffers_.counters);
-  if (!single_) accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"), {});
+  if (!single_)
+    accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"),
+                                       {{kSpecVariant, settings.wantAovs ? kVariantFilmParts : 0u}});
   resetCounters();
 }
 
@@ -196,7 +198,6 @@ void Film::accumulate(const Band& band, bool first, Tally& tally) {
   push.pixelCount = band.rowCount * settings_.width;
   push.firstPixel = band.firstRow * settings_.width;
   push.firstSample = first ? 1u : 0u;
-  push.withParts = settings_.wantAovs ? 1u : 0u;
   commands_.begin();
   commands_.barrier();
   commands_.beginSpan("accumulate");

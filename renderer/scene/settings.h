@@ -8,10 +8,10 @@
 namespace crosslight {
 
 enum class Method { wireframe, flat, gouraud, phong, whitted };
-enum class FlatVertex { first, last, centroid };               // where flat shading evaluates lighting
-enum class PixelFilter { box, tent, gaussian };                // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
+enum class FlatVertex { first, last, centroid };         // where flat shading evaluates lighting
+enum class PixelFilter { box, tent, gaussian };          // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
 enum class KernelFamily { automatic, perLane, packet };  // of the ray kernels: same hits, other speed
-enum class TwoSided { material, always };                      // per material (glTF's doubleSided), or everything
+enum class TwoSided { material, always };                // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
   Method method = Method::phong;

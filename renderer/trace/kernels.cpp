@@ -119,6 +119,17 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
   }
 }
 
+bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan,
+                            const RenderSettings& settings) const {
+  const bool samePlan = plan.models == plan_.models && plan.lights == plan_.lights && plan.shapes == plan_.shapes &&
+                        plan.effects == plan_.effects;
+  return samePlan && variantOf(scene, settings) == variant_ && chooseKernels(device, plan, settings) == choice_;
+}
+
+void KernelPipelines::wait() {
+  while (!pending_.empty()) get(std::string(pending_.begin()->first));
+}
+
 gpu::ComputePipeline KernelPipelines::make(const std::string& kernel, std::uint32_t moreVariant) const {
   return {device_, layout_, gpu::embeddedShader(kernel), constantsOf(plan_, variant_ | moreVariant)};
 }

@@ -31,6 +31,8 @@ struct KernelChoice {
   std::string shadowRest;
   std::string gather;
   KernelFamily family = KernelFamily::perLane;
+
+  bool operator==(const KernelChoice&) const = default;
 };
 // DeviceError when a forced family cannot run on this device.
 KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings);
@@ -46,6 +48,9 @@ class KernelPipelines {
  public:
   // All but `device` may go afterwards.
   KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan, const RenderSettings& settings);
+  // Would pipelines made for these be the same?
+  bool serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan, const RenderSettings& settings) const;
+  void wait();  // until all are made
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }
   // Waits for it.

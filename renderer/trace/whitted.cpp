@@ -257,6 +257,7 @@ std::uint32_t cameraRayCount(std::uint32_t width, std::uint32_t height) {
 std::unique_ptr<Technique> makeWhittedWith(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device,
                                            GpuScene& scene, const Plan& plan, const RenderSettings& settings,
                                            FilmBuffers& buffers) {
+  kernels->wait();
   return std::make_unique<Whitted>(device, scene, plan, settings, buffers, std::move(kernels));
 }
 

@@ -6,6 +6,8 @@
 #include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
+// Film parts too: else nothing of them is compiled, since some drivers run both sides of a branch.
+layout(constant_id = kSpecVariant) const uint specVariant = 1u;
 layout(push_constant, scalar) uniform PushBlock { FilmPush pushed; };
 layout(set = 0, binding = kBindSampleColor, scalar) readonly buffer SampleBlock { vec4 samples[]; };
 layout(set = 0, binding = kBindFilm, scalar) buffer FilmBlock { FilmPixel film[]; };
@@ -40,5 +42,5 @@ void main() {
   precise vec4 t = sum + y;
   precise vec4 c = (t - sum) - y;
   film[pixel] = FilmPixel(t, c);
-  if (pushed.withParts != 0u) addParts(pixel);
+  if ((specVariant & kVariantFilmParts) != 0u) addParts(pixel);
 }

@@ -61,6 +61,7 @@ CL_CONST uint kSpecEffects = 3;                // bits of CL_EFFECTS
 CL_CONST uint kSpecVariant = 4;                // of one shader; documented there
 CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' variant
 CL_CONST uint kVariantOrthographic = 2u;       // camera kernels: rays do not begin at one point
+CL_CONST uint kVariantFilmParts = 1u;          // accumulate: FilmParts too
 CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the groups that kBindRest lists
 CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
 
@@ -158,7 +159,6 @@ struct FilmPush {
   uint pixelCount;
   uint firstPixel;
   uint firstSample;  // 1: start the sums, do not add to them
-  uint withParts;    // 1: FilmParts too
 };
 CL_SHARED_END
 
