@@ -5,6 +5,7 @@
 // first.
 #define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
 #include <functional>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,6 +21,28 @@ struct ValidationLog {
   std::mutex mutex;  // the layer may call from any thread of the driver
   std::vector<std::string> messages;
   std::size_t thrown = 0;  // how many of them an exception has carried already
+};
+
+struct BindingLayoutImpl;
+
+// Pipelines that nobody holds any more, kept for whoever wants the same again: a driver takes tens of milliseconds to
+// make one, and lavapipe as long again at its first use.
+class PipelinePool {
+ public:
+  // The pipeline with this key, or a null one. Keys name everything that a pipeline is made of.
+  vk::raii::Pipeline take(const std::string& key);
+  // `layout`: of its making. A later user has one of its own, identically defined (Vulkan 1.3, "Pipeline Layout
+  // Compatibility").
+  void park(std::string key, std::shared_ptr<BindingLayoutImpl> layout, vk::raii::Pipeline pipeline);
+
+ private:
+  struct Parked {
+    std::string key;
+    std::shared_ptr<BindingLayoutImpl> layout;
+    vk::raii::Pipeline pipeline;
+  };
+  std::mutex mutex_;
+  std::list<Parked> parked_;  // the latest first
 };
 
 struct DeviceImpl {
@@ -47,6 +70,7 @@ struct DeviceImpl {
   vk::raii::Queue queue{nullptr};
   vk::raii::CommandPool transferPool{nullptr};
   vk::raii::PipelineCache pipelineCache{nullptr};
+  PipelinePool pipelines = {};  // dies before the device
 };
 
 // Memory of one resource; counted while it lives.
@@ -132,7 +156,12 @@ struct PipelineImpl {
   vk::PipelineBindPoint point;
   bool drawsColor = false, drawsDepth = false;
   std::uint32_t samples = 1;
+  std::string key = {};  // what it is made of, in words
   vk::raii::Pipeline pipeline{nullptr};
+
+  ~PipelineImpl() {
+    if (*pipeline) device->pipelines.park(std::move(key), std::move(layout), std::move(pipeline));
+  }
 };
 
 inline constexpr vk::ShaderStageFlags kAllStages =

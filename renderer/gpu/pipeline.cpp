@@ -181,11 +181,38 @@ vk::raii::Pipeline makeCompute(const PipelineImpl& impl, ShaderCode code, const 
   return {device.device, device.pipelineCache, info};
 }
 
+// Everything that a pipeline is made of, in words: equal keys, equal pipelines. Names stand for code that is compiled
+// in.
+std::string keyOf(const BindingLayoutImpl& layout, const Constants& constants) {
+  std::string key = fmt::format("push {}", layout.pushBytes);
+  for (const Binding& b : layout.bindings) key += fmt::format(" b{}:{}", b.slot, static_cast<int>(b.type));
+  for (const Constant& c : constants) key += fmt::format(" c{}={}", c.id, c.bits);
+  return key;
+}
+
+std::string keyOf(const ShaderCode& code) {
+  return fmt::format(" {}@{}", code.name, static_cast<const void*>(code.words.data()));
+}
+
+std::string keyOf(const BindingLayoutImpl& layout, const GraphicsState& s) {
+  std::string key = keyOf(layout, s.constants) + keyOf(s.vertex) + keyOf(s.fragment);
+  for (const VertexBufferLayout& buffer : s.buffers) key += fmt::format(" v{}", buffer.strideBytes);
+  for (const VertexAttribute& a : s.attributes) {
+    key += fmt::format(" a{}:{}:{}:{}", a.location, a.buffer, a.offset, static_cast<int>(a.format));
+  }
+  return key + fmt::format(" {:d}{:d} {} {} {:d} {} {} {:a} {:a}", s.colorTarget, s.depthTarget, s.samples,
+                           static_cast<int>(s.depthTest), s.depthWrite, static_cast<int>(s.blend),
+                           static_cast<int>(s.polygonMode), s.depthBiasConstant, s.depthBiasSlope);
+}
+
 }  // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, const BindingLayout& layout, ShaderCode code,
                                  const Constants& constants)
     : impl_(new PipelineImpl{&device.impl(), layout.shared(), vk::PipelineBindPoint::eCompute}) {
+  impl_->key = keyOf(*impl_->layout, constants) + keyOf(code);
+  impl_->pipeline = impl_->device->pipelines.take(impl_->key);
+  if (*impl_->pipeline) return;
   guarded(fmt::format("making the pipeline of {}", code.name), [&] {
     impl_->pipeline = makeCompute(*impl_, code, constants);
     nameObject(*impl_->device, impl_->pipeline, std::string(code.name));
@@ -200,6 +227,9 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const BindingLayout& la
   impl_->samples = state.samples;
   const std::string name = fmt::format("{} {}", state.vertex.name, state.fragment.name);
   checkSamples(*impl_->device, "the pipeline of " + name, state.samples);
+  impl_->key = keyOf(*impl_->layout, state);
+  impl_->pipeline = impl_->device->pipelines.take(impl_->key);
+  if (*impl_->pipeline) return;
   guarded("making the pipeline of " + name, [&] {
     impl_->pipeline = makeGraphics(*impl_, state);
     nameObject(*impl_->device, impl_->pipeline, name);
