@@ -34,12 +34,15 @@ gpu::Device openDevice(const DeviceChoice& choice) {
     throw DeviceError("--require-device: the only usable device is the software driver '" + info.name +
                       "'; '--device lavapipe' accepts it, 'crosslight devices' tells why others were refused");
   }
-  if (info.isSoftware) logInfo("software driver: " + info.name + " (" + driverOf(info) + ") computes on the CPU");
   return device;
 }
 
+void sayIfSoftware(const gpu::DeviceInfo& info) {
+  if (info.isSoftware) logInfo("software driver: " + info.name + " (" + driverOf(info) + ") computes on the CPU");
+}
+
 void openIfAsked(const DeviceChoice& choice) {
-  if (choice.required || !choice.selector.empty()) openDevice(choice);
+  if (choice.required || !choice.selector.empty()) sayIfSoftware(openDevice(choice).info());
 }
 
 std::string deviceTable(const std::vector<gpu::DeviceReport>& reports) {

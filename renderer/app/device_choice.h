@@ -22,6 +22,7 @@ void addDeviceOptions(CommandLine& line, CLI::App& command, DeviceChoice& choice
 
 // DeviceError with all refusals when there is none. Says so on stderr when the driver runs on the CPU.
 gpu::Device openDevice(const DeviceChoice& choice);
+void sayIfSoftware(const gpu::DeviceInfo& info);
 
 // Nothing unless the choice names or requires a device; then opens it, as a driver that lists one may fail to make it.
 void openIfAsked(const DeviceChoice& choice);

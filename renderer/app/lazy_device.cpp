@@ -22,6 +22,7 @@ gpu::Device& LazyDevice::get() {
   timesMs_ = {{"instance", device_->openTimes().instanceMs},
               {"device", device_->openTimes().deviceMs},
               {"deviceWait", watch.elapsedMs()}};
+  sayIfSoftware(device_->info());
   logVerbose("drawing on " + device_->info().name);
   return *device_;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "accel/wide_bvh.h"
 #include "app/picture_layers.h"
 #include "base/check.h"
 #include "base/error.h"
@@ -101,8 +102,10 @@ MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& reques
   need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
   need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
                             (isTraced(s.method) ? 0 : targetBytes(s));
-  // A tree has about one node per triangle at the build's leaf sizes, and lists boxes and order while it is built.
-  constexpr std::uint64_t kTreeBytes = 2 * sizeof(shared::BvhNode) + sizeof(shared::BvhPrimitive);
+  // A tree has about one node per triangle at the build's leaf sizes, and lists boxes and order while it is built. A
+  // wide node takes the place of seven, full ones; they are rarely full: two to seven.
+  constexpr std::uint64_t kTreeBytes =
+      2 * sizeof(shared::BvhNode) + 2 * sizeof(WideNode) / 7 + sizeof(shared::BvhPrimitive);
   constexpr std::uint64_t kBuildBytes = 64;
   const SceneStats& stats = request.scene->stats;
   const std::uint64_t flatBytes = stats.vertices * (sizeof(glm::vec3) + sizeof(shared::VertexAttributes)) +

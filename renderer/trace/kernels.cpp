@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/error.h"
 #include "bindings.h"
@@ -80,6 +81,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
                              !plan.has(Effect::shapes);
   if (triangles) choice.camera = cameraPackets ? "camera_interval.comp" : "camera.comp";
   if (cameraPackets) choice.cameraRest = "camera.comp";
+  choice.wideTree = cameraPackets;
   if (plan.has(Effect::shapes)) choice.shapes = "shapes.comp";
   if (plan.has(Effect::shadows)) choice.shadow = shadowPackets ? "shadow_packet.comp" : "shadow.comp";
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
@@ -87,6 +89,13 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
     choice.gather = "gather.comp";
     if (triangles && settings.maxDepth > 0) choice.secondary = "intersect.comp";
   }
+  return choice;
+}
+
+KernelChoice forTree(KernelChoice choice, const GpuScene& scene) {
+  const bool fits = scene.wideDepth() > 0 && scene.wideDepth() <= kWideDepth;
+  if (!choice.wideTree || fits) return choice;
+  choice.camera = std::exchange(choice.cameraRest, {});
   return choice;
 }
 
@@ -140,7 +149,9 @@ const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel) {
     ready_[kernel] = found->second.get();
     pending_.erase(found);
   }
-  return ready_.at(kernel);
+  gpu::ComputePipeline& pipeline = ready_[kernel];
+  if (!pipeline) pipeline = make(kernel, 0);
+  return pipeline;
 }
 
 const gpu::ComputePipeline& KernelPipelines::getRest(const std::string& kernel) {

@@ -9,6 +9,7 @@
 #include "effects/effects.h"
 #include "gpu/pipeline.h"
 #include "scene/settings.h"
+#include "upload/gpu_scene.h"
 
 namespace crosslight {
 
@@ -30,12 +31,16 @@ struct KernelChoice {
   std::string shadow;
   std::string shadowRest;
   std::string gather;
+  bool wideTree = false;  // a tree with eight children per node is walked
   KernelFamily family = KernelFamily::perLane;
 
   bool operator==(const KernelChoice&) const = default;
 };
 // DeviceError when a forced family cannot run on this device.
 KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings);
+
+// The choice as it suits a scene: packets want a wide tree of no more than kWideDepth levels.
+KernelChoice forTree(KernelChoice choice, const GpuScene& scene);
 
 // Do surfaces send rays on?
 bool branches(const Plan& plan);
@@ -53,7 +58,7 @@ class KernelPipelines {
   void wait();  // until all are made
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }
-  // Waits for it.
+  // Waits for it; makes it if the choice did not name it.
   const gpu::ComputePipeline& get(const std::string& kernel);
   // The variant that does only what packets gave up; made when it is first asked for, since few scenes need it.
   const gpu::ComputePipeline& getRest(const std::string& kernel);

@@ -31,6 +31,7 @@ class Whitted final : public Technique {
         buffers_(buffers),
         branches_(crosslight::branches(plan)),
         kernels_(std::move(kernels)),
+        choice_(forTree(kernels_->choice(), scene)),
         set_(device, kernels_->layout()),
         commands_(device) {
     makeBuffers();
@@ -82,7 +83,7 @@ class Whitted final : public Technique {
         std::max(std::uint64_t{chunk_} * (tree ? kNodesPerPixel : 1), std::uint64_t{kFewestNodes});
     capacity_ = static_cast<std::uint32_t>(std::min(wanted, fits));
     batch_ = lightBatch(scene_.lightCount());
-    const bool shadows = !kernels_->choice().shadow.empty();
+    const bool shadows = !choice_.shadow.empty();
     const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t size) {
       return gpu::Buffer(device_, name, count * size, gpu::useStorage | gpu::useUniformTexel);
     };
@@ -189,20 +190,19 @@ class Whitted final : public Technique {
   }
 
   void traceLevel(TracePush push, bool primary, Tally& tally) {
-    const KernelChoice& choice = kernels_->choice();
     commands_.begin();
     commands_.barrier();
     if (primary)
-      dispatch(choice.camera, choice.cameraRest, push, "intersect");
+      dispatch(choice_.camera, choice_.cameraRest, push, "intersect");
     else
-      dispatch(choice.secondary, push, "intersect");
-    dispatch(choice.shapes, push, "shapes");
+      dispatch(choice_.secondary, push, "intersect");
+    dispatch(choice_.shapes, push, "shapes");
     const std::uint32_t lights = scene_.lightCount();
     for (std::uint32_t first = 0; first == 0 || first < lights; first += batch_) {
       push.firstLight = first;
       push.lightCount = std::min(batch_, lights - first);
       for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
-        dispatch(choice.shadow, choice.shadowRest, push, "shadow");
+        dispatch(choice_.shadow, choice_.shadowRest, push, "shadow");
       }
       dispatch("shade.comp", push, "shade");
     }
@@ -214,7 +214,7 @@ class Whitted final : public Technique {
     commands_.begin();
     commands_.barrier();
     for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-      dispatch(kernels_->choice().gather, *level, "gather");
+      dispatch(choice_.gather, *level, "gather");
     }
     submit(tally);
   }
@@ -238,6 +238,7 @@ class Whitted final : public Technique {
   FilmBuffers& buffers_;
   bool branches_;
   std::shared_ptr<KernelPipelines> kernels_;
+  KernelChoice choice_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
   gpu::Buffer raysBuffer_, nodes_, hits_, visibility_, rest_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <future>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <limits>
@@ -232,7 +234,7 @@ std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
 
 }  // namespace
 
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings) {
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, bool wide) {
   FlatBvh result;
   const auto flagsOf = [&](std::uint32_t drawId) {
     const shared::DrawRecord& draw = flat.draws[drawId];
@@ -240,9 +242,8 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
   };
   const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
   append(triangles, result);
-  WideBvh wide = widen(triangles);
-  result.wideNodes = std::move(wide.nodes);
-  result.wideDepth = wide.maxDepth;
+  std::future<WideBvh> widening;
+  if (wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
   const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
   result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
   for (const std::uint32_t t : triangles.order) {
@@ -260,6 +261,11 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
     p.drawId = drawId;
     p.flags = flagsOf(drawId);
     result.primitives.push_back(p);
+  }
+  if (wide) {
+    WideBvh eight = widening.get();
+    result.wideNodes = std::move(eight.nodes);
+    result.wideDepth = eight.maxDepth;
   }
   return result;
 }

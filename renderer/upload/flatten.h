@@ -36,9 +36,9 @@ struct FlatBvh {
   std::vector<shared::BvhNode> nodes;  // the triangles' root is 0
   std::uint32_t shapeRoot = 0;
   std::vector<shared::BvhPrimitive> primitives;
-  std::vector<WideNode> wideNodes;  // the triangles' tree, eight children per node
+  std::vector<WideNode> wideNodes;  // if asked for: the triangles' tree, eight children per node
   std::uint32_t wideDepth = 0;
 };
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings);
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, bool wide = true);
 
 }  // namespace crosslight

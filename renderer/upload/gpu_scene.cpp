@@ -25,6 +25,7 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   const FlatBvh none;
   const FlatBvh& tree = bvh ? *bvh : none;
   shapeRoot_ = tree.shapeRoot;
+  wideDepth_ = tree.wideDepth;
   nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
   wideNodes_ = gpu::Buffer::of(device, "wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
   primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
