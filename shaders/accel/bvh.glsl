@@ -219,13 +219,17 @@ HitRecord closestShape(Ray ray, bool cutBackFaces, HitRecord sofar) {
   considerUnboundedShapes(ray, cutBackFaces, best);
   WalkRay w = walkRayOf(ray);
   Walk walk = Walk(frame.shapeRoot, 0, 0u);
-  while (goesOn(walk)) {
+  do {
     walkToLeaf(w, boundOf(best, ray), walk);
     uint count = leafCount(walk);
-    uint firstSlot = walk.next & kBvhFirstMask;
-    for (uint i = 0u; i < count; ++i) considerShape(firstSlot + i, ray, cutBackFaces, best);
+    uint slot = walk.next & kBvhFirstMask;
+    uint end = slot + count;
+    do {
+      if (slot < end) considerShape(slot, ray, cutBackFaces, best);
+      ++slot;
+    } while (slot < end);
     leaveLeaf(count, walk);
-  }
+  } while (goesOn(walk));
   countCapped(walk);
   return best.hit;
 }
@@ -280,14 +284,18 @@ float lightPassed(Ray ray) {
   if (CL_HAS(shapes)) {
     passed *= lightPassedUnbounded(ray);
     walk = Walk(passed == 0.0 ? kWalkDone : frame.shapeRoot, 0, 0u);
-    while (goesOn(walk)) {
+    do {
       walkToLeaf(w, ray.tMax, walk);
       uint count = leafCount(walk);
-      uint firstSlot = walk.next & kBvhFirstMask;
-      for (uint i = 0u; i < count; ++i) passed *= lightPassedShape(firstSlot + i, ray);
+      uint slot = walk.next & kBvhFirstMask;
+      uint end = slot + count;
+      do {
+        if (slot < end) passed *= lightPassedShape(slot, ray);
+        ++slot;
+      } while (slot < end);
       leaveLeaf(count, walk);
       if (passed == 0.0) walk.next = kWalkDone;
-    }
+    } while (goesOn(walk));
     countCapped(walk);
   }
   return passed;
