@@ -144,13 +144,14 @@ void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& o
   FlatScene flat = flattenScene(scene, origin, traced);
   phases.lap("flatten");
   FlatBvh bvh;
-  if (traced) bvh = buildFlatBvh(flat, scene, settings, kernels->choice().wideTree);
+  if (traced) bvh = buildFlatBvh(flat, scene, settings, {kernels->choice().wideTree, kernels->choice().quadTree});
   phases.lap("bvh");
   PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, nullptr};
   placed.counters = {{"triangles", flat.triangleCount()},
                      {"shapes", flat.shapes.size()},
                      {"bvhNodes", bvh.nodes.size()},
                      {"bvhBytes", bvh.nodes.size() * sizeof(shared::BvhNode) + bvh.wideNodes.size() * sizeof(WideNode) +
+                                      bvh.quadNodes.size() * sizeof(shared::QuadNode) +
                                       bvh.primitives.size() * sizeof(shared::BvhPrimitive)}};
   scenes.push_front(std::move(placed));
   PlacedScene& kept = scenes.front();

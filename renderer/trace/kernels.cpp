@@ -28,7 +28,8 @@ constexpr std::array kFamilies{
     Family{KernelFamily::automatic, "auto", "what suits the device"},
     Family{KernelFamily::perLane, "per-lane", "one ray per invocation through the binary tree"},
     Family{KernelFamily::packet, "packet",
-           "camera rays in interval packets, shadow rays in packets, others one per invocation"}};
+           "camera rays in interval packets, shadow rays in packets, others one per invocation through quantised "
+           "nodes with four children"}};
 
 const Family& rowOf(KernelFamily family) {
   return *std::find_if(kFamilies.begin(), kFamilies.end(), [&](const Family& f) { return f.family == family; });
@@ -87,15 +88,16 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
   if (branches(plan)) {
     choice.gather = "gather.comp";
-    if (triangles && settings.maxDepth > 0) choice.secondary = "intersect.comp";
+    if (triangles && settings.maxDepth > 0) choice.secondary = packets ? "intersect_quad.comp" : "intersect.comp";
   }
+  choice.quadTree = choice.secondary == "intersect_quad.comp";
   return choice;
 }
 
 KernelChoice forTree(KernelChoice choice, const GpuScene& scene) {
   const bool fits = scene.wideDepth() > 0 && scene.wideDepth() <= kWideDepth;
-  if (!choice.wideTree || fits) return choice;
-  choice.camera = std::exchange(choice.cameraRest, {});
+  if (choice.wideTree && !fits) choice.camera = std::exchange(choice.cameraRest, {});
+  if (choice.quadTree && !scene.hasQuads()) choice.secondary = "intersect.comp";
   return choice;
 }
 

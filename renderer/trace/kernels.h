@@ -32,6 +32,7 @@ struct KernelChoice {
   std::string shadowRest;
   std::string gather;
   bool wideTree = false;  // a tree with eight children per node is walked
+  bool quadTree = false;  // one with four
   KernelFamily family = KernelFamily::perLane;
 
   bool operator==(const KernelChoice&) const = default;
@@ -39,7 +40,8 @@ struct KernelChoice {
 // DeviceError when a forced family cannot run on this device.
 KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings);
 
-// The choice as it suits a scene: packets want a wide tree of no more than kWideDepth levels.
+// The choice as it suits a scene: trees with more than two children may be too deep for the
+// stacks.
 KernelChoice forTree(KernelChoice choice, const GpuScene& scene);
 
 // Do surfaces send rays on?

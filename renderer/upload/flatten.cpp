@@ -234,7 +234,7 @@ std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
 
 }  // namespace
 
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, bool wide) {
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more) {
   FlatBvh result;
   const auto flagsOf = [&](std::uint32_t drawId) {
     const shared::DrawRecord& draw = flat.draws[drawId];
@@ -243,7 +243,9 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
   const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
   append(triangles, result);
   std::future<WideBvh> widening;
-  if (wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
+  std::future<QuadBvh> quantizing;
+  if (more.quad) quantizing = std::async(std::launch::async, quantize, std::cref(triangles));
+  if (more.wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
   const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
   result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
   for (const std::uint32_t t : triangles.order) {
@@ -262,7 +264,12 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
     p.flags = flagsOf(drawId);
     result.primitives.push_back(p);
   }
-  if (wide) {
+  if (more.quad) {
+    QuadBvh four = quantizing.get();
+    result.quadNodes = std::move(four.nodes);
+    result.quadWaiting = four.mostWaiting;
+  }
+  if (more.wide) {
     WideBvh eight = widening.get();
     result.wideNodes = std::move(eight.nodes);
     result.wideDepth = eight.maxDepth;

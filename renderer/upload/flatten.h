@@ -38,7 +38,14 @@ struct FlatBvh {
   std::vector<shared::BvhPrimitive> primitives;
   std::vector<WideNode> wideNodes;  // if asked for: the triangles' tree, eight children per node
   std::uint32_t wideDepth = 0;
+  std::vector<shared::QuadNode> quadNodes;  // if asked for: the same, four children per node
+  std::uint32_t quadWaiting = 0;
 };
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, bool wide = true);
+// Trees beside the binary one that kernels walk.
+struct MoreTrees {
+  bool wide = true;
+  bool quad = true;
+};
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more = {});
 
 }  // namespace crosslight

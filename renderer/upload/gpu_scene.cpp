@@ -26,6 +26,8 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   const FlatBvh& tree = bvh ? *bvh : none;
   shapeRoot_ = tree.shapeRoot;
   wideDepth_ = tree.wideDepth;
+  quadWaiting_ = tree.quadWaiting;
+  quadNodes_ = gpu::Buffer::of(device, "quantised BVH nodes", tree.quadNodes, gpu::useUniformTexel);
   nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
   wideNodes_ = gpu::Buffer::of(device, "wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
   primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
@@ -51,6 +53,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindBvhNodes, nodes_);
   set.set(kBindBvhPrimitives, primitives_);
   set.set(kBindWideNodes, wideNodes_);
+  set.set(kBindQuadNodes, quadNodes_);
   set.set(kBindMaterialTexels, materials_);
   set.set(kBindLightTexels, lights_);
   set.set(kBindDrawTexels, draws_);
@@ -72,6 +75,7 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindBvhNodes, texelBufferUint4},
                                      {kBindBvhPrimitives, texelBufferUint4},
                                      {kBindWideNodes, texelBufferUint4},
+                                     {kBindQuadNodes, texelBufferUint4},
                                      {kBindMaterialTexels, texelBufferUint4},
                                      {kBindLightTexels, texelBufferUint4},
                                      {kBindDrawTexels, texelBufferUint4},

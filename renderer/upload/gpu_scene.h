@@ -24,6 +24,7 @@ class GpuScene {
   std::uint32_t lightCount() const { return static_cast<std::uint32_t>(scene_.lights.size()); }
   const Scene& scene() const { return scene_; }
   std::uint32_t wideDepth() const { return wideDepth_; }  // of the wide tree; 0: there is none
+  bool hasQuads() const { return quadWaiting_ <= shared::kBvhStackSize && quadNodes_.sizeBytes() > 0; }
 
   const gpu::Buffer& materials() const { return materials_; }
   const gpu::Buffer& lights() const { return lights_; }
@@ -35,9 +36,9 @@ class GpuScene {
   const Scene& scene_;
   const RenderSettings& settings_;
   FlatScene flat_;
-  std::uint32_t shapeRoot_ = 0, wideDepth_ = 0;
+  std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
-      primitives_, wideNodes_;
+      primitives_, wideNodes_, quadNodes_;
 };
 
 // The slots that GpuScene binds, for layouts, and buffers of the technique's own: storage, or texels of 4 words.

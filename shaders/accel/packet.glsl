@@ -87,9 +87,9 @@ vec3 finiteInverse(vec3 d) { return clamp(1.0 / d, vec3(-kLargest), vec3(kLarges
 uint rayClass(RayShear shear, vec3 inverse) { return shear.axis << 3u | signsOf(inverse); }
 const uint kNoClass = 0xffffffffu;
 
-// A packet that takes more steps than this has rays that part, or meets more triangles than it has rays: one by one they
-// are done sooner. Far below the limit of passes through loops that some drivers have.
-const uint kPacketSteps = 2048u;
+// A packet that takes more steps than this meets far more triangles than it has rays: one by one they are done sooner.
+// A step is at most three passes through loops, which some drivers end after 65,535.
+const uint kPacketSteps = 16384u;
 
 // Puts this group on the list of those that a kernel with one ray per lane does again.
 void giveUp(uint group) {

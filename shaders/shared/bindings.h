@@ -49,6 +49,7 @@ CL_CONST uint kBindShapeTexels = 23;
 CL_CONST uint kBindHitTexels = 24;  // kBindHits, kBindRays, kBindRayNodes, to be read: RGBA32UI
 CL_CONST uint kBindRayTexels = 25;
 CL_CONST uint kBindNodeTexels = 26;
+CL_CONST uint kBindQuadNodes = 29;  // texel buffer, RGBA32UI, 4 per node
 CL_CONST uint kBindRest = 28;       // groups whose packet gave up, behind the dispatch arguments that count them
 CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
 CL_CONST uint kBindFilmParts = 18;  // FilmParts[pixels of the band], or one dummy

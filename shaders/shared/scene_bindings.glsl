@@ -33,6 +33,7 @@ layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
 layout(set = 0, binding = kBindBvhPrimitives) uniform usamplerBuffer bvhPrimitives;
 
 layout(set = 0, binding = kBindWideNodes) uniform usamplerBuffer wideNodes;
+layout(set = 0, binding = kBindQuadNodes) uniform usamplerBuffer quadNodes;
 layout(set = 0, binding = kBindMaterialTexels) uniform usamplerBuffer materialTexels;
 layout(set = 0, binding = kBindLightTexels) uniform usamplerBuffer lightTexels;
 layout(set = 0, binding = kBindDrawTexels) uniform usamplerBuffer drawTexels;

@@ -193,6 +193,27 @@ CL_SIZE(WideChild, 32)
 CL_CONST uint kWideChildren = 8u;
 CL_CONST uint kWideDepth = 32u;  // inner nodes on a path that the packets' stack has room for; else narrow kernels run
 
+// Node with four children whose boxes are bytes on a grid of the node's own: 64 bytes = four texels for twice the boxes
+// of a BvhNode. Plane i of an axis lies at origin + 2^(exponent - 127) * byte, rounded once; planes lie outside of the
+// exact ones or on them. Byte i of a word is child i's; an empty child is kBvhLeaf.
+struct QuadNode {
+  vec3 origin;
+  uint exponents;  // bits 0..7 x, 8..15 y, 16..23 z
+  uint lowerX;
+  uint lowerY;
+  uint lowerZ;
+  uint upperX;
+  uint upperY;
+  uint upperZ;
+  uint unused0;
+  uint unused1;
+  uint child0;
+  uint child1;
+  uint child2;
+  uint child3;
+};
+CL_SIZE(QuadNode, 64)
+
 // Primitive of the BVH in leaf order, 48 bytes = three RGBA32F texels. A triangle holds its corners; a shape only its
 // id.
 struct BvhPrimitive {

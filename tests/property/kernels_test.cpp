@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, Kernels, ::testing::ValuesIn(allSceneNames()
 Scene distantDenseSphere() {
   Scene scene;
   scene.source = "made in a test";
-  scene.meshes.push_back({"dense", {tessellateShape(ShapeKind::sphere, glm::vec4(1), 256, 0)}});
+  scene.meshes.push_back({"dense", {tessellateShape(ShapeKind::sphere, glm::vec4(1), 512, 0)}});
   scene.materials.emplace_back().doubleSided = true;
   MeshInstance& far = scene.instances.emplace_back();
   far.worldFromObject[3] = glm::dvec4(0.1, 0.2, -30, 1);

@@ -1,0 +1,18 @@
+#version 460
+// Closest triangle of every stored ray of one level, one ray per lane, through nodes with four children.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/scene_bindings.glsl"
+#include "trace/tree.glsl"
+#include "trace/passed_light.glsl"
+#include "accel/quad.glsl"
+
+layout(local_size_x = 64) in;
+
+float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
+
+void main() {
+  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
+  uint node = pushed.firstNode + gl_GlobalInvocationID.x;
+  RayRecord ray = rayRecordOf(node);
+  hits[node] = closestTriangleByQuads(rayOf(ray), goesStraight(ray.kind));
+}
