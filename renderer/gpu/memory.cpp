@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "base/check.h"
@@ -55,9 +56,17 @@ void checkSize(const DeviceImpl& device, const std::string& name, std::uint64_t 
   limit(true, device.maxAllocationBytes, "maxMemoryAllocationSize");
 }
 
+// llvmpipe compiles a shader once more for texel buffers whose size is a power of two: none has such a size here, so
+// that the size of a picture or a scene does not decide whether a kernel is compiled again.
+std::uint64_t blocksFor(const DeviceImpl& device, std::uint64_t sizeBytes, std::uint32_t use) {
+  const std::uint64_t blocks = std::max<std::uint64_t>(1, (sizeBytes + kGranularityBytes - 1) / kGranularityBytes);
+  const bool mayGrow = (use & useUniformTexel) != 0 && blocks < device.limits.maxTexelBufferElements;
+  return mayGrow && std::has_single_bit(blocks) ? blocks + 1 : blocks;
+}
+
 Owned<BufferImpl> makeBuffer(DeviceImpl& device, std::string name, std::uint64_t sizeBytes, std::uint32_t use) {
   checkSize(device, name, sizeBytes, use);
-  const std::uint64_t blocks = std::max<std::uint64_t>(1, (sizeBytes + kGranularityBytes - 1) / kGranularityBytes);
+  const std::uint64_t blocks = blocksFor(device, sizeBytes, use);
   const std::string what = fmt::format("buffer '{}'", name);
   return guarded("making " + what, [&] {
     const vk::BufferCreateInfo info({}, blocks * kGranularityBytes, usageOf(use), vk::SharingMode::eExclusive);
