@@ -188,6 +188,18 @@ bool isValid(Ray ray) {
   return isFinite3(ray.origin) && isFinite3(ray.direction) && dot(abs(ray.direction), vec3(1.0)) > 0.0;
 }
 
+// Tests the triangles of the leaf that is next, none at the walk's end, and takes what waits.
+void considerLeaf(Ray ray, RayShear shear, bool cutBackFaces, inout Closest best, inout Walk walk) {
+  uint count = leafCount(walk);
+  uint slot = walk.next & kBvhFirstMask;
+  uint end = slot + count;
+  do {
+    if (slot < end) considerTriangle(slot, ray, shear, cutBackFaces, best);
+    ++slot;
+  } while (slot < end);
+  leaveLeaf(count, walk);
+}
+
 // Triangles and shapes have a tree each: devices that run both sides of every branch would else pay for all shapes'
 // equations at every triangle.
 HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
@@ -198,14 +210,7 @@ HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   Walk walk = Walk(0u, 0, 0u);
   do {
     walkToLeaf(w, boundOf(best, ray), walk);
-    uint count = leafCount(walk);
-    uint slot = walk.next & kBvhFirstMask;
-    uint end = slot + count;
-    do {
-      if (slot < end) considerTriangle(slot, ray, shear, cutBackFaces, best);
-      ++slot;
-    } while (slot < end);
-    leaveLeaf(count, walk);
+    considerLeaf(ray, shear, cutBackFaces, best, walk);
   } while (goesOn(walk));
   countCapped(walk);
   return best.hit;

@@ -20,12 +20,6 @@ vec3 vectorFromLane(uvec4 texel, uint from) {
   return uintBitsToFloat(uvec3(subgroupShuffle(texel.x, from), subgroupShuffle(texel.y, from), subgroupShuffle(texel.z, from)));
 }
 
-// max() and min() say which operand a NaN leaves, and pay for it on llvmpipe; there are no NaNs here.
-float greater(float a, float b) { return a > b ? a : b; }
-float smaller(float a, float b) { return a < b ? a : b; }
-vec3 greater(vec3 a, vec3 b) { return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)); }
-vec3 smaller(vec3 a, vec3 b) { return vec3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z)); }
-
 // Over the lanes, by exchanges in pairs: the subgroup's own reductions are loops through memory on llvmpipe.
 uint orOverLanes(uint v) {
   v |= subgroupShuffleXor(v, 1u);

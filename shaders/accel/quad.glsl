@@ -7,22 +7,18 @@
 
 const uint kNotMet = 0xffffffffu;
 
-// Comparisons, not max() and min(), which say what becomes of NaN and pay for it; NaN (a ray within a face) loses here.
-float later(float a, float b) { return a > b ? a : b; }
-float sooner(float a, float b) { return a < b ? a : b; }
-
 vec3 planesOf(vec3 origin, vec3 scale, uvec3 bytes, uint child) {
   return origin + scale * vec3(ivec3((bytes >> (8u * child)) & 255u));
 }
 
-// Distance bits of a child that the ray meets, its number in the lowest two; kNotMet else.
+// NaN (a ray within a face) loses every comparison. Distance bits of a child that the ray meets, its number in the lowest two; kNotMet else.
 uint keyOf(uint child, uint number, vec3 nearPlanes, vec3 farPlanes, WalkRay w) {
   const float kWiden = 1.00000036;  // 1 + 2 gamma_3
   vec3 near = (nearPlanes - w.ray.origin) * w.inverse;
   vec3 far = (farPlanes - w.ray.origin) * w.inverse;
-  float t0 = later(near.z, later(near.y, later(near.x, w.ray.tMin)));
-  float t1 = sooner(far.z, sooner(far.y, sooner(far.x, kLargest))) * kWiden;
-  return t0 <= sooner(t1, w.ray.tMax) && child != kEmptyChild ? (floatBitsToUint(later(t0, 0.0)) & ~3u) | number : kNotMet;
+  float t0 = greater(near.z, greater(near.y, greater(near.x, w.ray.tMin)));
+  float t1 = smaller(far.z, smaller(far.y, smaller(far.x, kLargest))) * kWiden;
+  return t0 <= smaller(t1, w.ray.tMax) && child != kEmptyChild ? (floatBitsToUint(greater(t0, 0.0)) & ~3u) | number : kNotMet;
 }
 
 void sortPair(inout uint a, inout uint b) {
@@ -83,14 +79,7 @@ HitRecord closestTriangleByQuads(Ray ray, bool cutBackFaces) {
       if (atInnerNode(walk)) descendQuad(w, walk);
       ++walk.steps;
     } while (atInnerNode(walk));
-    uint count = leafCount(walk);
-    uint slot = walk.next & kBvhFirstMask;
-    uint end = slot + count;
-    do {
-      if (slot < end) considerTriangle(slot, ray, shear, cutBackFaces, best);
-      ++slot;
-    } while (slot < end);
-    leaveLeaf(count, walk);
+    considerLeaf(ray, shear, cutBackFaces, best, walk);
   } while (goesOn(walk));
   countCapped(walk);
   return best.hit;

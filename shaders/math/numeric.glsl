@@ -13,6 +13,12 @@ float gammaBound(float n) { return n * kUnitRoundoff / (1.0 - n * kUnitRoundoff)
 vec3 interpolate(vec3 a, vec3 b, float t) { return a + (b - a) * t; }
 vec4 interpolate(vec4 a, vec4 b, float t) { return a + (b - a) * t; }
 
+// max() and min() say what becomes of NaN, and pay for it on llvmpipe; here the second operand stands in for a NaN.
+float greater(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
+vec3 greater(vec3 a, vec3 b) { return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)); }
+vec3 smaller(vec3 a, vec3 b) { return vec3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z)); }
+
 float maxComponent(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 // Unit vector of any finite, nonzero v; `fallback` for zero, infinite or NaN. Scaled first, so that squares neither
