@@ -123,11 +123,17 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
                              kBindAovs, kBindRest},
                             {kBindRayTexels, kBindHitTexels, kBindNodeTexels}),
               sizeof(TracePush)) {
-  for (const std::string& name :
-       {choice_.camera, choice_.shadow, std::string("shade.comp"), choice_.shapes, choice_.secondary, choice_.gather}) {
-    if (name.empty() || pending_.contains(name)) continue;
-    pending_[name] = std::async(std::launch::async, [this, name] { return make(name, 0); });
+  for (const std::string& name : {choice_.camera, choice_.shadow, choice_.shapes, choice_.secondary, choice_.gather}) {
+    begin(name, 0);
   }
+  if (settings.aovs.empty() || branches(plan)) begin("shade.comp", 0);
+  if (!settings.aovs.empty()) begin("shade.comp", kVariantAovs);
+}
+
+void KernelPipelines::begin(const std::string& kernel, std::uint32_t variant) {
+  const Key key{kernel, variant};
+  if (kernel.empty() || pending_.contains(key)) return;
+  pending_[key] = std::async(std::launch::async, [this, key] { return make(key); });
 }
 
 bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan,
@@ -138,27 +144,25 @@ bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, c
 }
 
 void KernelPipelines::wait() {
-  while (!pending_.empty()) get(std::string(pending_.begin()->first));
+  while (!pending_.empty()) {
+    const Key key = pending_.begin()->first;
+    get(key.first, key.second);
+  }
 }
 
-gpu::ComputePipeline KernelPipelines::make(const std::string& kernel, std::uint32_t moreVariant) const {
-  return {device_, layout_, gpu::embeddedShader(kernel), constantsOf(plan_, variant_ | moreVariant)};
+gpu::ComputePipeline KernelPipelines::make(const Key& key) const {
+  return {device_, layout_, gpu::embeddedShader(key.first), constantsOf(plan_, variant_ | key.second)};
 }
 
-const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel) {
-  const auto found = pending_.find(kernel);
+const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel, std::uint32_t variant) {
+  const Key key{kernel, variant};
+  const auto found = pending_.find(key);
   if (found != pending_.end()) {
-    ready_[kernel] = found->second.get();
+    ready_[key] = found->second.get();
     pending_.erase(found);
   }
-  gpu::ComputePipeline& pipeline = ready_[kernel];
-  if (!pipeline) pipeline = make(kernel, 0);
-  return pipeline;
-}
-
-const gpu::ComputePipeline& KernelPipelines::getRest(const std::string& kernel) {
-  gpu::ComputePipeline& pipeline = rest_[kernel];
-  if (!pipeline) pipeline = make(kernel, kVariantRest);
+  gpu::ComputePipeline& pipeline = ready_[key];
+  if (!pipeline) pipeline = make(key);
   return pipeline;
 }
 

@@ -60,21 +60,23 @@ class KernelPipelines {
   void wait();  // until all are made
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }
-  // Waits for it; makes it if the choice did not name it.
-  const gpu::ComputePipeline& get(const std::string& kernel);
-  // The variant that does only what packets gave up; made when it is first asked for, since few scenes need it.
-  const gpu::ComputePipeline& getRest(const std::string& kernel);
+  // Waits for it; makes it when it was not begun: few scenes need kVariantRest. `variant`: bits of kSpecVariant beside
+  // the scene's own.
+  const gpu::ComputePipeline& get(const std::string& kernel, std::uint32_t variant = 0);
 
  private:
-  gpu::ComputePipeline make(const std::string& kernel, std::uint32_t moreVariant) const;
+  using Key = std::pair<std::string, std::uint32_t>;
+
+  void begin(const std::string& kernel, std::uint32_t variant);
+  gpu::ComputePipeline make(const Key& key) const;
 
   const gpu::Device& device_;
   Plan plan_;
   std::uint32_t variant_;
   KernelChoice choice_;
   gpu::BindingLayout layout_;
-  std::map<std::string, std::future<gpu::ComputePipeline>> pending_;
-  std::map<std::string, gpu::ComputePipeline> ready_, rest_;
+  std::map<Key, std::future<gpu::ComputePipeline>> pending_;
+  std::map<Key, gpu::ComputePipeline> ready_;
 };
 
 // Lights whose visibility is kept at once.

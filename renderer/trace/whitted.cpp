@@ -125,10 +125,10 @@ class Whitted final : public Technique {
   }
 
   // `kernel` empty: no such pass.
-  void dispatch(const std::string& kernel, const TracePush& push, const char* span) {
+  void dispatch(const std::string& kernel, const TracePush& push, const char* span, std::uint32_t variant = 0) {
     if (kernel.empty()) return;
     commands_.beginSpan(span);
-    record(kernels_->get(kernel), push);
+    record(kernels_->get(kernel, variant), push);
     commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
     commands_.endSpan();
     commands_.barrier();
@@ -144,7 +144,7 @@ class Whitted final : public Technique {
     dispatch(kernel, push, span);
     if (rest.empty() || !packetsGiveUp_) return;
     commands_.beginSpan(span);
-    record(kernels_->getRest(rest), push);
+    record(kernels_->get(rest, kVariantRest), push);
     commands_.dispatchIndirect(rest_, 0);
     commands_.endSpan();
     commands_.barrier();
@@ -172,12 +172,11 @@ class Whitted final : public Technique {
     push.firstInTiles = first;
     push.nodeCapacity = capacity_;
     push.maxDepth = settings_.maxDepth;
-    push.writeAovs = request.aovs ? 1u : 0u;
     push.nodeCount = count;
     std::vector<TracePush> levels;
     std::array<std::uint32_t, kCounterCount> now{};
     while (push.nodeCount > 0) {
-      traceLevel(push, levels.empty(), tally);
+      traceLevel(push, levels.empty(), request.aovs, tally);
       levels.push_back(push);
       buffers_.counters.read(0, std::as_writable_bytes(std::span(now)));
       if (mustRepeat(now, count)) return false;
@@ -189,7 +188,7 @@ class Whitted final : public Technique {
     return true;
   }
 
-  void traceLevel(TracePush push, bool primary, Tally& tally) {
+  void traceLevel(TracePush push, bool primary, bool aovs, Tally& tally) {
     commands_.begin();
     commands_.barrier();
     if (primary)
@@ -204,7 +203,7 @@ class Whitted final : public Technique {
       for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
         dispatch(choice_.shadow, choice_.shadowRest, push, "shadow");
       }
-      dispatch("shade.comp", push, "shade");
+      dispatch("shade.comp", push, "shade", primary && aovs ? kVariantAovs : 0);
     }
     submit(tally);
   }

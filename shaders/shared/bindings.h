@@ -65,6 +65,7 @@ CL_CONST uint kVariantOrthographic = 2u;       // camera kernels: rays do not be
 CL_CONST uint kVariantFilmParts = 1u;          // accumulate: FilmParts too
 CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the groups that kBindRest lists
 CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
+CL_CONST uint kVariantAovs = 16u;              // shade: the primary level writes AovRecords
 
 // The list at kBindRest: the three words of an indirect dispatch, one unused, then the groups.
 CL_CONST uint kRestGroups = 4u;
@@ -154,7 +155,6 @@ struct TracePush {
   uint firstInTiles;  // generate: first ray of the chunk, in the band's tile order
   uint nodeCapacity;
   uint maxDepth;
-  uint writeAovs;  // 1: the primary level writes AovRecords
 };
 struct FilmPush {
   uint pixelCount;

@@ -16,6 +16,7 @@ layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 sa
 #include "trace/children.glsl"
 
 const bool kManyLights = (specVariant & kVariantManyLights) != 0u;
+const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
 
 float lightVisibility(uint lightIndex) {
   if (!CL_HAS(shadows)) return 1.0;
@@ -73,7 +74,7 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   if (interior) sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   ShadedParts parts = compose(s, sums, firstBatch && !interior ? frame.ambient : vec3(0.0));
   if (!firstBatch) parts.emission = vec3(0.0);
-  if (pushed.writeAovs != 0u && ray.kind == kRayPrimary) recordAov(pixel, h, s, parts, firstBatch);
+  if (kWritesAovs && ray.kind == kRayPrimary) recordAov(pixel, h, s, parts, firstBatch);
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode));
   if (kBranches && firstBatch) {
