@@ -2,18 +2,13 @@
 #ifndef CROSSLIGHT_CHILDREN_GLSL
 #define CROSSLIGHT_CHILDREN_GLSL
 
-// Node for a new ray, or kNoRayNode when the store is full (counted: the host starts again with fewer pixels).
-uint addRay(RayRecord parent, HitSurface h, vec3 direction, vec3 weight, uint kind, uint medium) {
-  uint slot = atomicAdd(counters[kCounterRayNodes], 1u);
-  if (slot >= pushed.nodeCapacity) {
-    atomicAdd(counters[kCounterOverflow], 1u);
-    return kNoRayNode;
-  }
-  rays[slot] = RayRecord(leaveSurface(h, direction), 0.0, direction, kLargest, h.slot, medium, kind, parent.depth + 1u);
-  nodes[slot].weight = weight;
-  atomicAdd(counters[kCounterReflection - kRayReflection + kind], 1u);
-  return slot;
-}
+// A ray that is to follow, if its weight says so.
+struct NewRay {
+  vec3 direction;
+  vec3 weight;
+  uint kind;
+  uint medium;
+};
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
 
@@ -28,9 +23,46 @@ struct Children {
   uint transmitted;
 };
 
-Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
+// Nodes for the rays of all lanes with one atomic per counter: three counts of up to ten bits travel in one word.
+// Returns this lane's first node.
+uint allocateNodes(bool reflects, bool transmits, bool bends) {
+  uint wanted = (reflects ? 1u | 1u << 10u : 0u) + (transmits ? (bends ? 1u | 1u << 20u : 1u) : 0u);
+  uint before = subgroupExclusiveAdd(wanted);
+  uint all = subgroupAdd(wanted);
+  uint count = all & 1023u, reflected = (all >> 10u) & 1023u, refracted = all >> 20u;
+  uint first = 0u;
+  if (subgroupElect() && count > 0u) {
+    first = atomicAdd(counters[kCounterRayNodes], count);
+    if (reflected > 0u) atomicAdd(counters[kCounterReflection], reflected);
+    if (refracted > 0u) atomicAdd(counters[kCounterRefraction], refracted);
+    if (count > reflected + refracted) atomicAdd(counters[kCounterPassThrough], count - reflected - refracted);
+  }
+  return subgroupBroadcastFirst(first) + (before & 1023u);
+}
+
+// kNoRayNode when the store is full (counted: the host starts again with fewer pixels).
+uint storeRay(uint slot, RayRecord parent, HitSurface h, NewRay ray) {
+  if (slot >= pushed.nodeCapacity) {
+    atomicAdd(counters[kCounterOverflow], 1u);
+    return kNoRayNode;
+  }
+  rays[slot] = RayRecord(leaveSurface(h, ray.direction), 0.0, ray.direction, kLargest, h.slot, ray.medium, ray.kind,
+                         parent.depth + 1u);
+  nodes[slot].weight = ray.weight;
+  return slot;
+}
+
+Children addRays(RayRecord parent, HitSurface h, NewRay mirrored, NewRay onward) {
+  bool reflects = carriesLight(mirrored.weight), transmits = carriesLight(onward.weight);
+  uint first = allocateNodes(reflects, transmits, onward.kind == kRayRefraction);
   Children children = Children(kNoRayNode, kNoRayNode);
-  if (ray.depth >= pushed.maxDepth) return children;
+  if (reflects) children.reflected = storeRay(first, parent, h, mirrored);
+  if (transmits) children.transmitted = storeRay(first + (reflects ? 1u : 0u), parent, h, onward);
+  return children;
+}
+
+Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
+  if (ray.depth >= pushed.maxDepth) return Children(kNoRayNode, kNoRayNode);
   MaterialRecord m = materialOf(h.at.materialId);
   vec3 d = safeNormalize(ray.direction, vec3(0.0, 0.0, 1.0));
   bool fromOutside = h.at.frontFacing;
@@ -66,14 +98,9 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
     throughWeight = vec3(0.0);
   }
   throughWeight += vec3(behind);
-  if (carriesLight(mirrorWeight))
-    children.reflected = addRay(ray, h, mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium);
-  if (carriesLight(throughWeight)) {
-    uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
-    bool bent = bends && !thin;
-    children.transmitted = addRay(ray, h, onward, throughWeight, bent ? kRayRefraction : kRayPassThrough,
-                                  bent ? inside : ray.medium);
-  }
-  return children;
+  uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
+  bool bent = bends && !thin;
+  NewRay through = NewRay(onward, throughWeight, bent ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium);
+  return addRays(ray, h, NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium), through);
 }
 #endif

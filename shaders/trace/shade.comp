@@ -2,6 +2,9 @@
 // Local illumination of every hit of one level for a batch of lights; with the first batch also emission, absorption
 // on the way, and the rays that follow: Whitted 1980, "An Improved Illumination Model for Shaded Display".
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
 #include "trace/hit_surface.glsl"
