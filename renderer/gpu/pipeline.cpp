@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "gpu/impl.h"
+#include "gpu/spirv_specialize.h"
 
 namespace crosslight::gpu {
 namespace {
@@ -30,10 +31,10 @@ struct Specialization {
   vk::SpecializationInfo info;
 };
 
-vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code) {
+vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code, const Constants& constants) {
   CL_CHECK(!code.words.empty());
-  vk::raii::ShaderModule module(device.device,
-                                vk::ShaderModuleCreateInfo({}, code.words.size_bytes(), code.words.data()));
+  const std::vector<std::uint32_t> words = specialized(code.words, constants);
+  vk::raii::ShaderModule module(device.device, vk::ShaderModuleCreateInfo({}, 4 * words.size(), words.data()));
   nameObject(device, module, std::string(code.name));
   return module;
 }
@@ -148,12 +149,12 @@ void FixedState::describeTargets(const GraphicsState& state) {
 vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& state) {
   const DeviceImpl& device = *impl.device;
   const Specialization specialization(state.constants);
-  const vk::raii::ShaderModule vertex = moduleOf(device, state.vertex);
+  const vk::raii::ShaderModule vertex = moduleOf(device, state.vertex, state.constants);
   std::vector<vk::PipelineShaderStageCreateInfo> stages{
       stageInfo(vk::ShaderStageFlagBits::eVertex, vertex, specialization)};
   vk::raii::ShaderModule fragment{nullptr};
   if (!state.fragment.words.empty()) {
-    fragment = moduleOf(device, state.fragment);
+    fragment = moduleOf(device, state.fragment, state.constants);
     stages.push_back(stageInfo(vk::ShaderStageFlagBits::eFragment, fragment, specialization));
   }
   const FixedState fixed(state);
@@ -175,7 +176,7 @@ vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& s
 vk::raii::Pipeline makeCompute(const PipelineImpl& impl, ShaderCode code, const Constants& constants) {
   const DeviceImpl& device = *impl.device;
   const Specialization specialization(constants);
-  const vk::raii::ShaderModule module = moduleOf(device, code);
+  const vk::raii::ShaderModule module = moduleOf(device, code, constants);
   const vk::ComputePipelineCreateInfo info({}, stageInfo(vk::ShaderStageFlagBits::eCompute, module, specialization),
                                            *impl.layout->pipeline);
   return {device.device, device.pipelineCache, info};
