@@ -31,11 +31,11 @@ SurfaceInput surfaceInput() {
 LightSums lighting(SurfacePoint s) {
 #ifdef CL_SUMS_MODE
   bool front = gl_FrontFacing || !CL_HAS(twoSided);
-  LightSums sums = LightSums(front ? frontAmbient : backAmbient, vec3(0.0), vec3(0.0), vec3(0.0));
+  LightSums sums = LightSums(front ? litSums[0] : litSums[kBack], vec3(0.0), vec3(0.0), vec3(0.0));
   if (kManySums) {
-    sums.diffuse = front ? frontDiffuse : backDiffuse;
-    sums.specular = front ? frontSpecular : backSpecular;
-    if (kSumsHaveFresnel) sums.fresnel = front ? frontFresnel : backFresnel;
+    sums.diffuse = front ? litSums[kDiffuse] : litSums[kBack + kDiffuse];
+    sums.specular = front ? litSums[kSpecular] : litSums[kBack + kSpecular];
+    if (kSumsHaveFresnel) sums.fresnel = front ? litSums[kFresnel] : litSums[kBack + kFresnel];
   }
   return sums;
 #else

@@ -5,14 +5,14 @@
 // The geometric normal is left to the caller.
 SurfaceInput interpolatedInput() {
   SurfaceInput at;
-  vec4 texCoords = CL_VARIES(Uvs) ? uvs : vec4(0.0);
-  at.renderPos = CL_VARIES(Position) ? renderPos : vec3(0.0);
-  at.normal = CL_VARIES(Normal) ? renderNormal : vec3(0.0);
+  vec4 texCoords = CL_VARIES(Uvs) ? passed[kUvs] : vec4(0.0);
+  at.renderPos = CL_VARIES(Position) ? passed[kPosition].xyz : vec3(0.0);
+  at.normal = CL_VARIES(Normal) ? passed[kNormal].xyz : vec3(0.0);
   at.geometricNormal = vec3(0.0, 0.0, 1.0);
-  at.tangent = CL_VARIES(Tangent) ? renderTangent : vec4(0.0);
+  at.tangent = CL_VARIES(Tangent) ? passed[kTangent] : vec4(0.0);
   at.uv0 = texCoords.xy;
   at.uv1 = texCoords.zw;
-  at.color = CL_VARIES(Color) ? vertexColor : vec4(1.0);
+  at.color = CL_VARIES(Color) ? passed[kColor] : vec4(1.0);
   at.materialId = pushed.materialId;
   at.frontFacing = gl_FrontFacing;
   at.colored = (pushed.drawFlags & kDrawHasColors) != 0u;

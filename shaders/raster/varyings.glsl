@@ -1,22 +1,33 @@
 // The interface between the raster stages. CL_STAGE is `in` or `out`; CL_SUMS_MODE is the interpolation of lighting
 // computed per vertex (`smooth` for Gouraud, `flat` for flat shading) and undefined where lighting is per fragment.
 // Each varying costs time per vertex, triangle and pixel: both stages leave out those that specVaryings does not name.
+// Arrays as long as what is passed on, because drivers may keep variables that nobody reads: llvmpipe sets up every
+// declared one for every triangle.
 layout(constant_id = kSpecVaryings) const uint specVaryings = kVaryingAll;
 #define CL_VARIES(name) ((specVaryings & kVarying##name) != 0u)
 
-layout(location = 0) CL_STAGE vec3 renderPos;
-layout(location = 1) CL_STAGE vec3 renderNormal;
-layout(location = 2) CL_STAGE vec4 renderTangent;
-layout(location = 3) CL_STAGE vec4 uvs;  // uv0, uv1
-layout(location = 4) CL_STAGE vec4 vertexColor;
+// Where each one is; 0, which exists, for those left out.
+const uint kNormalPlace = uint(CL_VARIES(Position));
+const uint kTangentPlace = kNormalPlace + uint(CL_VARIES(Normal));
+const uint kUvsPlace = kTangentPlace + uint(CL_VARIES(Tangent));
+const uint kColorPlace = kUvsPlace + uint(CL_VARIES(Uvs));
+const uint kPassedCount = kColorPlace + uint(CL_VARIES(Color));
+const uint kPosition = 0u;
+const uint kNormal = kNormalPlace * uint(CL_VARIES(Normal));
+const uint kTangent = kTangentPlace * uint(CL_VARIES(Tangent));
+const uint kUvs = kUvsPlace * uint(CL_VARIES(Uvs));  // uv0, uv1
+const uint kColor = kColorPlace * uint(CL_VARIES(Color));
+layout(location = 0) CL_STAGE vec4 passed[kPassedCount + uint(kPassedCount == 0u)];
+
 #ifdef CL_SUMS_MODE
 const bool kSeparateSums = (specVariant & kVariantSeparateSums) != 0u;
-const bool kClampsColors = (specVariant & kVariantClampVertexColors) != 0u && !kSeparateSums;
+const bool kClampsColors = (specVariant & (kVariantClampVertexColors | kVariantSeparateSums)) == kVariantClampVertexColors;
 const uint kColorEffects = kEffect_baseColorTexture | kEffect_metallicRoughnessTexture | kEffect_occlusionTexture |
                            kEffect_emissiveTexture | kEffect_vertexColors;
 const bool kColorsMayVary = (specEffects & kColorEffects) != 0u;
-// Else the first of the sums is the whole color, and the only one.
-const bool kManySums = kSeparateSums || (kColorsMayVary && !kClampsColors);
+// Else the first of the sums is the whole color, and the only one. In integers: && and || make no constants.
+const uint kMany = uint(kSeparateSums) | (uint(kColorsMayVary) & uint(!kClampsColors));
+const bool kManySums = kMany != 0u;
 const bool kSumsHaveFresnel = (specModels & (1u << kModel_cookTorrance)) != 0u;  // else these are zero
 
 // Whether the surface's colors are the same all over a triangle: then its vertices are lit to the end. The material
@@ -28,12 +39,12 @@ bool colorsVary(MaterialRecord m, bool colored) {
          (CL_HAS(emissiveTexture) && hasTexture(m.emissiveTexture)) || (CL_HAS(vertexColors) && colored);
 }
 
-layout(location = 5) CL_SUMS_MODE CL_STAGE vec3 frontAmbient;  // or the whole color
-layout(location = 6) CL_SUMS_MODE CL_STAGE vec3 frontDiffuse;
-layout(location = 7) CL_SUMS_MODE CL_STAGE vec3 frontSpecular;
-layout(location = 8) CL_SUMS_MODE CL_STAGE vec3 frontFresnel;
-layout(location = 9) CL_SUMS_MODE CL_STAGE vec3 backAmbient;  // these four only with the effect twoSided
-layout(location = 10) CL_SUMS_MODE CL_STAGE vec3 backDiffuse;
-layout(location = 11) CL_SUMS_MODE CL_STAGE vec3 backSpecular;
-layout(location = 12) CL_SUMS_MODE CL_STAGE vec3 backFresnel;
+// Sums of each side: ambient (or the whole color), then where there are many diffuse, specular, Fresnel. The back's
+// only with the effect twoSided.
+const uint kDiffuse = kMany;
+const uint kSpecular = 2u * kMany;
+const uint kFresnel = 3u * kMany * uint(kSumsHaveFresnel);
+const uint kSums = 1u + 2u * kMany + kMany * uint(kSumsHaveFresnel);
+const uint kBack = kSums * uint(CL_HAS(twoSided));
+layout(location = 5) CL_SUMS_MODE CL_STAGE vec3 litSums[kSums + kBack];
 #endif

@@ -40,26 +40,26 @@ LightSums lightVertex(bool frontFacing) {
 
 void main() {
   gl_Position = frame.clipFromRender * vec4(inPosition, 1.0);
-  if (CL_VARIES(Position)) renderPos = inPosition;
-  if (CL_VARIES(Normal)) renderNormal = inNormal;
-  if (CL_VARIES(Tangent)) renderTangent = inTangent;
-  if (CL_VARIES(Uvs)) uvs = vec4(inUv0, inUv1);
-  if (CL_VARIES(Color)) vertexColor = inColor;
+  if (CL_VARIES(Position)) passed[kPosition] = vec4(inPosition, 0.0);
+  if (CL_VARIES(Normal)) passed[kNormal] = vec4(inNormal, 0.0);
+  if (CL_VARIES(Tangent)) passed[kTangent] = inTangent;
+  if (CL_VARIES(Uvs)) passed[kUvs] = vec4(inUv0, inUv1);
+  if (CL_VARIES(Color)) passed[kColor] = inColor;
 #ifdef CL_SUMS_MODE
   LightSums front = lightVertex(true);
-  frontAmbient = front.ambient;
+  litSums[0] = front.ambient;
   if (kManySums) {
-    frontDiffuse = front.diffuse;
-    frontSpecular = front.specular;
-    if (kSumsHaveFresnel) frontFresnel = front.fresnel;
+    litSums[kDiffuse] = front.diffuse;
+    litSums[kSpecular] = front.specular;
+    if (kSumsHaveFresnel) litSums[kFresnel] = front.fresnel;
   }
   if (CL_HAS(twoSided)) {
     LightSums back = lightVertex(false);
-    backAmbient = back.ambient;
+    litSums[kBack] = back.ambient;
     if (kManySums) {
-      backDiffuse = back.diffuse;
-      backSpecular = back.specular;
-      if (kSumsHaveFresnel) backFresnel = back.fresnel;
+      litSums[kBack + kDiffuse] = back.diffuse;
+      litSums[kBack + kSpecular] = back.specular;
+      if (kSumsHaveFresnel) litSums[kBack + kFresnel] = back.fresnel;
     }
   }
 #endif
