@@ -17,9 +17,9 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   materials_ = gpu::Buffer::of(device, "materials", materials.materials, gpu::useStorage | gpu::useUniformTexel);
   lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage | gpu::useUniformTexel);
   draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage | gpu::useUniformTexel);
-  positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useStorage | gpu::useVertex);
+  positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
   attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
-  indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useStorage | gpu::useIndex);
+  indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
   shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage | gpu::useUniformTexel);
   texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
   const FlatBvh none;
@@ -67,9 +67,9 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindMaterials, storageBuffer},
                                      {kBindLights, storageBuffer},
                                      {kBindDraws, storageBuffer},
-                                     {kBindPositions, storageBuffer},
+                                     {kBindPositions, texelBufferUint4},
                                      {kBindAttributes, texelBufferFloat4},
-                                     {kBindIndices, storageBuffer},
+                                     {kBindIndices, texelBufferUint4},
                                      {kBindShapes, storageBuffer},
                                      {kBindTexels, texelBufferFloat4},
                                      {kBindBvhNodes, texelBufferUint4},

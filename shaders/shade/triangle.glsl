@@ -25,13 +25,7 @@ struct TriangleCorners {
 };
 
 TriangleCorners cornersOf(uint triangle) {
-  TriangleCorners c;
-  c.i0 = indices[3u * triangle];
-  c.i1 = indices[3u * triangle + 1u];
-  c.i2 = indices[3u * triangle + 2u];
-  c.v0 = positions[c.i0];
-  c.v1 = positions[c.i1];
-  c.v2 = positions[c.i2];
-  return c;
+  uvec3 i = cornerIndices(triangle);
+  return TriangleCorners(i.x, i.y, i.z, positionOf(i.x), positionOf(i.y), positionOf(i.z));
 }
 #endif

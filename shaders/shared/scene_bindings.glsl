@@ -24,9 +24,9 @@ layout(set = 0, binding = kBindFrame, scalar) uniform FrameBlock { FrameRecord f
 layout(set = 0, binding = kBindMaterials, scalar) readonly buffer MaterialBlock { MaterialRecord materials[]; };
 layout(set = 0, binding = kBindLights, scalar) readonly buffer LightBlock { LightRecord lights[]; };
 layout(set = 0, binding = kBindDraws, scalar) readonly buffer DrawBlock { DrawRecord draws[]; };
-layout(set = 0, binding = kBindPositions, scalar) readonly buffer PositionBlock { vec3 positions[]; };
+layout(set = 0, binding = kBindPositions) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindAttributes) uniform samplerBuffer attributeTexels;
-layout(set = 0, binding = kBindIndices, scalar) readonly buffer IndexBlock { uint indices[]; };
+layout(set = 0, binding = kBindIndices) uniform usamplerBuffer indexTexels;
 layout(set = 0, binding = kBindShapes, scalar) readonly buffer ShapeBlock { ShapeRecord shapes[]; };
 layout(set = 0, binding = kBindTexels) uniform samplerBuffer texels;
 layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
@@ -40,6 +40,30 @@ layout(set = 0, binding = kBindDrawTexels) uniform usamplerBuffer drawTexels;
 layout(set = 0, binding = kBindShapeTexels) uniform usamplerBuffer shapeTexels;
 
 #include "record_texels.glsl"
+
+// Three words of a packed list, from the two texels that they may lie in: texel buffers may be sixteen times a storage
+// buffer on llvmpipe, and a texel is one load.
+uint texelOfWord(uint word) { return word >> 2u; }
+uint nextTexelOfWord(uint word) { return (word + 2u) >> 2u; }
+uvec3 threeWords(uvec4 first, uvec4 next, uint word) {
+  uint shift = word & 3u;
+  uvec3 low = shift == 0u ? first.xyz : first.yzw;
+  uvec3 high = shift == 2u ? uvec3(first.zw, next.x) : uvec3(first.w, next.xy);
+  return shift < 2u ? low : high;
+}
+
+// Vertices of a triangle.
+uvec3 cornerIndices(uint triangle) {
+  uint word = 3u * triangle;
+  return threeWords(texelFetch(indexTexels, int(texelOfWord(word))), texelFetch(indexTexels, int(nextTexelOfWord(word))),
+                    word);
+}
+
+vec3 positionOf(uint vertex) {
+  uint word = 3u * vertex;
+  return uintBitsToFloat(threeWords(texelFetch(positionTexels, int(texelOfWord(word))),
+                                    texelFetch(positionTexels, int(nextTexelOfWord(word))), word));
+}
 
 VertexAttributes attributesOf(uint vertex) {
   int at = int(4u * vertex);

@@ -31,9 +31,10 @@ vec3 barycentricsOf(HitRecord hit) { return vec3(1.0 - hit.b1 - hit.b2, hit.b1, 
 
 HitSurface triangleSurface(HitRecord hit) {
   PrimitiveTexels p = fetchPrimitive(hit.primitive);
-  VertexAttributes a0 = attributesOf(indices[3u * p.id]);
-  VertexAttributes a1 = attributesOf(indices[3u * p.id + 1u]);
-  VertexAttributes a2 = attributesOf(indices[3u * p.id + 2u]);
+  uvec3 corners = cornerIndices(p.id);
+  VertexAttributes a0 = attributesOf(corners.x);
+  VertexAttributes a1 = attributesOf(corners.y);
+  VertexAttributes a2 = attributesOf(corners.z);
   DrawRecord draw = drawOf(p.drawId);
   vec3 b = barycentricsOf(hit);
   TrianglePoint point = pointOnTriangle(p, b);

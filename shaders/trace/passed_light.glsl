@@ -11,9 +11,10 @@ float passedLight(MaterialRecord m, float alpha) {
 }
 
 float alphaAtTriangle(uint triangle, uint drawId, float b1, float b2) {
-  VertexAttributes a0 = attributesOf(indices[3u * triangle]);
-  VertexAttributes a1 = attributesOf(indices[3u * triangle + 1u]);
-  VertexAttributes a2 = attributesOf(indices[3u * triangle + 2u]);
+  uvec3 corners = cornerIndices(triangle);
+  VertexAttributes a0 = attributesOf(corners.x);
+  VertexAttributes a1 = attributesOf(corners.y);
+  VertexAttributes a2 = attributesOf(corners.z);
   DrawRecord draw = drawOf(drawId);
   float b0 = 1.0 - b1 - b2;
   bool colored = (draw.flags & kDrawHasColors) != 0u;
