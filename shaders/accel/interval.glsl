@@ -44,7 +44,7 @@ void testChildren(Interval packet, float bound, inout WideWalk walk) {
   int at = int(16u * walk.node + 2u * lane());
   uvec4 a = texelFetch(wideNodes, at);
   uvec4 b = texelFetch(wideNodes, at + 1);
-  vec3 lower = uintBitsToFloat(a.xyz), upper = uintBitsToFloat(b.xyz);
+  vec3 lower = planesBeyond(uintBitsToFloat(a.xyz), -1.0), upper = planesBeyond(uintBitsToFloat(b.xyz), 1.0);
   vec3 nearBy = mix(lower, upper, packet.negative) - packet.nearOrigin;
   vec3 farBy = mix(upper, lower, packet.negative) - packet.farOrigin;
   vec3 near = smaller(nearBy * packet.lowInverse, nearBy * packet.highInverse);
@@ -97,7 +97,7 @@ void considerForInterval(uint slot, bool there, bool cutBackFaces, uint axis) {
 float farthestBound() {
   float bound = -kLargest;
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) bound = greater(bound, active_[k] ? bounds_[k] : -kLargest);
-  return maxOverLanes(bound);
+  return searchedTo(maxOverLanes(bound));
 }
 
 // Activates the rays of one class.

@@ -77,6 +77,13 @@ bvec3 negativeBy(uint signs) { return notEqual(uvec3(signs) & uvec3(1u, 2u, 4u),
 // 1 / d without infinities: 0 * inf would be NaN where a ray runs within a face. A direction this small moves nowhere.
 vec3 finiteInverse(vec3 d) { return clamp(1.0 / d, vec3(-kLargest), vec3(kLargest)); }
 
+// Planes an ulp or more farther out. A ray that runs within a plane has the distance 0 to it, and 0 times the inverse
+// above is 0: it would leave the box before it enters. `outwards`: 1 for upper planes, -1 for lower ones.
+vec3 planesBeyond(vec3 planes, float outwards) {
+  const float kUlp = 1.1920929e-7, kLeast = 5.4e-20;  // 2^-23, 2^-64: times kLargest beyond all scenes
+  return planes + outwards * (abs(planes) * kUlp + kLeast);
+}
+
 // Axis of the shear and signs: rays of one class share the order of everything.
 uint rayClass(RayShear shear, vec3 inverse) { return shear.axis << 3u | signsOf(inverse); }
 const uint kNoClass = 0xffffffffu;

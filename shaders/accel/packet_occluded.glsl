@@ -32,6 +32,7 @@ bool entersBox(vec3 nearPlanes, vec3 farPlanes, int k) {
 // Both children of an inner node. Lanes 0 and 1 hold the first child's corners, 2 and 3 the second's.
 void descendPacket(uint signs, inout PacketWalk walk) {
   uvec4 texel = texelFetch(bvhNodes, int(4u * walk.next + (lane() & 3u)));
+  texel.xyz = floatBitsToUint(planesBeyond(uintBitsToFloat(texel.xyz), (lane() & 1u) != 0u ? 1.0 : -1.0));
   bvec3 negative = negativeBy(signs);
   vec3 lower0 = vectorFromLane(texel, 0u), upper0 = vectorFromLane(texel, 1u);
   vec3 lower1 = vectorFromLane(texel, 2u), upper1 = vectorFromLane(texel, 3u);

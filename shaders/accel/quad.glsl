@@ -74,7 +74,7 @@ HitRecord closestTriangleByQuads(Ray ray, bool cutBackFaces) {
   RayShear shear = shearOf(ray.direction);
   Walk walk = Walk(0u, 0, 0u);
   do {
-    w.ray.tMax = boundOf(best, ray);
+    w.ray.tMax = searchedTo(boundOf(best, ray));
     do {
       if (atInnerNode(walk)) descendQuad(w, walk);
       ++walk.steps;

@@ -72,6 +72,28 @@ TEST(GivenUp, packetsLeaveTheirRaysToBeDoneOneByOne) {
   expectEqual(pair);
 }
 
+// Rays within the plane x = 0, in which edges of a disk of triangles lie, seen ever flatter: who is nearest is decided
+// by the triangles alone, not by whose box a kernel looks into first.
+TEST(Edges, showTheSameTriangleWhateverTheKernel) {
+  if (!deviceRunsPackets()) GTEST_SKIP() << "packets need subgroups of 8 lanes";
+  Scene scene;
+  scene.source = "made in a test";
+  scene.meshes.push_back({"floor", {tessellateShape(ShapeKind::disk, glm::vec4(6), 32, 0)}});
+  scene.materials.emplace_back().doubleSided = true;
+  MeshInstance& floor = scene.instances.emplace_back();
+  floor.worldFromObject[3] = glm::dvec4(0, -2.5, -6, 1);
+  scene.instanceCount = 1;
+  scene.cameras.emplace_back();
+  Light& light = scene.lights.emplace_back();
+  light.worldPosition = glm::dvec3(0, 5, 0);
+  RenderSettings settings = settingsFor(Method::whitted, 161, 123);
+  settings.aovs = {"depth", "primitiveId"};
+  const Pair pair = renderByBoth(scene, settings);
+  expectEqual(pair);
+  EXPECT_TRUE(pair.perLane.image.find("depth")->samples == pair.packet.image.find("depth")->samples);
+  EXPECT_EQ(pair.perLane.image.find("primitiveId")->integers, pair.packet.image.find("primitiveId")->integers);
+}
+
 TEST(Families, haveNamesThatLeadBack) {
   for (const std::string& name : kernelFamilyNames()) EXPECT_EQ(nameOf(kernelFamilyOf(name)), name);
   EXPECT_THROW(kernelFamilyOf("pocket"), std::exception);
