@@ -22,6 +22,13 @@ struct EffectRecord {
   std::string reason;
 };
 
+// The trees that rays walked; kind is empty for raster methods.
+struct TreeRecord {
+  std::string kind;    // "flat": one over all triangles; "two-level": one per mesh, and one over instances
+  std::string reason;  // why instances share trees, or do not
+  std::uint64_t instances = 0, trees = 0, bytes = 0, bytesSaved = 0;
+};
+
 struct RenderReport {
   // Wall milliseconds by phase, in order: "bvh", "upload", "pipelines", "render" (submit to idle, all samples),
   // "readback". Load, device and encode are the caller's.
@@ -34,7 +41,8 @@ struct RenderReport {
   std::uint64_t deviceBytes = 0;                  // peak
   std::string promise;                            // light paths that the method computes, Heckbert's notation
   std::string pixelFilter;                        // in words
-  std::vector<std::string> reused;                // of the session: "scene", "film", "kernels"
+  TreeRecord tree;
+  std::vector<std::string> reused;  // of the session: "scene", "film", "kernels"
 };
 
 struct RenderResult {

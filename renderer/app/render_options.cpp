@@ -27,6 +27,7 @@ constexpr double kMostStops = 64;                    // 2^64 takes any float rad
 
 const std::vector<std::string> kFilters = {"box", "tent", "gaussian"};
 const std::vector<std::string> kToneMaps = {"none", "clamp", "reinhard", "neutral"};
+const std::vector<std::string> kInstanceModes = {"auto", "flatten", "share"};
 const std::vector<std::string> kMsaaCounts = {"1", "2", "4", "8"};
 
 std::vector<std::string> methodNames() {
@@ -94,6 +95,12 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
                         "Ray kernels (whitted): one ray per invocation, or packets; all make the same image")
                 ->group("Sampling"),
             o.kernelGiven);
+  noteGiven(
+      line.choice(command, "--instances", o.instances, kInstanceModes,
+                  "Trees of rays (whitted): one over all triangles, or one per mesh that its instances share; all "
+                  "make the same image")
+          ->group("Sampling"),
+      o.instancesGiven);
 }
 
 void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
@@ -172,6 +179,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.maxDepth = o.maxDepth;
   settings.seed = o.seed;
   settings.kernel = kernelFamilyOf(o.kernel);
+  settings.instances = static_cast<InstanceMode>(indexIn(kInstanceModes, o.instances));
   settings.allEffects = o.effects == "all";
   settings.allowNonfinite = o.allowNonfinite;
   for (const std::string& pair : o.set) {
@@ -185,6 +193,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   if (rays && o.msaaGiven) warnUnheeded("--msaa", o);
   if (!rays && o.maxDepthGiven) warnUnheeded("--max-depth", o);
   if (!rays && o.kernelGiven) warnUnheeded("--kernel", o);
+  if (!rays && o.instancesGiven) warnUnheeded("--instances", o);
   settings.aovs = aovsOf(o.aovs);
   const bool layered = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
   if (!settings.aovs.empty() && !layered) {

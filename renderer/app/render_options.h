@@ -34,6 +34,8 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   std::string kernel = "auto";
   bool kernelGiven = false;
+  std::string instances = "auto";
+  bool instancesGiven = false;
   std::vector<std::string> set;
   std::string effects = "auto";
   std::string aovs;

@@ -9,6 +9,11 @@
 namespace crosslight {
 namespace {
 
+Json treeJson(const TreeRecord& tree) {
+  return {{"kind", tree.kind},   {"reason", tree.reason}, {"instances", tree.instances},
+          {"trees", tree.trees}, {"bytes", tree.bytes},   {"bytesSaved", tree.bytesSaved}};
+}
+
 Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
   return {{"width", s.width},
           {"height", s.height},
@@ -51,6 +56,7 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
   for (const auto& [pass, gpuMs] : report.gpuMs) record["gpu"].push_back({{"pass", pass}, {"gpuMs", gpuMs}});
   record["rays"] = report.rays;
   record["counters"] = report.counters;
+  if (!report.tree.kind.empty()) record["tree"] = treeJson(report.tree);
   record["nonfinite"] = report.nonfinite;
   record["deviceBytes"] = report.deviceBytes;
   record["reused"] = report.reused;

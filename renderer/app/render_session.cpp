@@ -15,6 +15,7 @@
 #include "raster/raster.h"
 #include "trace/whitted.h"
 #include "upload/gpu_scene.h"
+#include "upload/shared_trees.h"
 
 namespace crosslight {
 namespace {
@@ -75,6 +76,7 @@ struct PlacedScene {
   RenderSettings settings, madeFor;
   glm::dvec3 origin{0.0};
   std::map<std::string, std::uint64_t> counters;
+  TreeRecord tree;
   std::unique_ptr<GpuScene> onDevice;
 };
 
@@ -108,6 +110,10 @@ bool same(const FilmSettings& a, const FilmSettings& b) {
          same(a.rows, b.rows);
 }
 
+glm::dvec3 originOf(const RenderRequest& request) {
+  return renderOrigin(request.scene->cameras[static_cast<std::size_t>(request.settings.camera)]);
+}
+
 class Phases {
  public:
   explicit Phases(RenderReport& report) : report_(report) {}
@@ -124,10 +130,12 @@ class Phases {
 struct RenderSession::Impl {
   explicit Impl(gpu::Device& d) : device(d) {}
 
-  PlacedScene& place(const RenderRequest& request, RenderReport& report, Phases& phases);
-  void make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases);
+  PlacedScene& place(const RenderRequest& request, const Sharing& sharing, RenderReport& report, Phases& phases);
+  void make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing, Phases& phases);
+  FlatBvh treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing, TreeRecord& record);
   Film& filmFor(const FilmSettings& settings, RenderReport& report);
-  std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, RenderReport& report);
+  std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, const Sharing& sharing,
+                                              RenderReport& report);
   std::unique_ptr<Technique> techniqueFor(const Plan& plan, PlacedScene& placed, FilmBuffers& buffers,
                                           const std::shared_ptr<KernelPipelines>& tracing);
 
@@ -137,22 +145,38 @@ struct RenderSession::Impl {
   std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
 };
 
-void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& origin, Phases& phases) {
+FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing,
+                                      TreeRecord& record) {
+  FlatBvh trees;
+  if (sharing.shares) {
+    SharedTreesReport report;
+    trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report);
+    record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved};
+  } else {
+    trees =
+        buildFlatBvh(flat, *request.scene, request.settings, {kernels->choice().wideTree, kernels->choice().quadTree});
+    record = {"flat", sharing.reason, flat.instances.size(), 1, 0, 0};
+  }
+  record.bytes = trees.sizeBytes();
+  return trees;
+}
+
+void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing,
+                               Phases& phases) {
   const RenderSettings& settings = request.settings;
   const Scene& scene = *request.scene;
   const bool traced = isTraced(settings.method);
   FlatScene flat = flattenScene(scene, origin, traced);
   phases.lap("flatten");
   FlatBvh bvh;
-  if (traced) bvh = buildFlatBvh(flat, scene, settings, {kernels->choice().wideTree, kernels->choice().quadTree});
+  TreeRecord tree;
+  if (traced) bvh = treesFor(request, flat, sharing, tree);
   phases.lap("bvh");
-  PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, nullptr};
+  PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, tree, nullptr};
   placed.counters = {{"triangles", flat.triangleCount()},
                      {"shapes", flat.shapes.size()},
                      {"bvhNodes", bvh.nodes.size()},
-                     {"bvhBytes", bvh.nodes.size() * sizeof(shared::BvhNode) + bvh.wideNodes.size() * sizeof(WideNode) +
-                                      bvh.quadNodes.size() * sizeof(shared::QuadNode) +
-                                      bvh.primitives.size() * sizeof(shared::BvhPrimitive)}};
+                     {"bvhBytes", bvh.sizeBytes()}};
   scenes.push_front(std::move(placed));
   PlacedScene& kept = scenes.front();
   try {
@@ -163,11 +187,13 @@ void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& o
   }
 }
 
-PlacedScene& RenderSession::Impl::place(const RenderRequest& request, RenderReport& report, Phases& phases) {
+PlacedScene& RenderSession::Impl::place(const RenderRequest& request, const Sharing& sharing, RenderReport& report,
+                                        Phases& phases) {
   const RenderSettings key = withoutFilm(request.settings);
-  const glm::dvec3 origin = renderOrigin(request.scene->cameras[static_cast<std::size_t>(request.settings.camera)]);
+  const glm::dvec3 origin = originOf(request);
   const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PlacedScene& p) {
-    return p.scene.get() == request.scene.get() && p.origin == origin && p.madeFor == key;
+    return p.scene.get() == request.scene.get() && p.origin == origin && p.madeFor == key &&
+           (p.tree.kind == "two-level") == sharing.shares;
   });
   if (found != scenes.end()) {
     scenes.splice(scenes.begin(), scenes, found);
@@ -176,7 +202,7 @@ PlacedScene& RenderSession::Impl::place(const RenderRequest& request, RenderRepo
     phases.lap("bvh");
   } else {
     while (scenes.size() >= kScenesKept) scenes.pop_back();
-    make(request, origin, phases);
+    make(request, origin, sharing, phases);
   }
   scenes.front().settings = request.settings;
   return scenes.front();
@@ -195,13 +221,13 @@ Film& RenderSession::Impl::filmFor(const FilmSettings& settings, RenderReport& r
 
 // Begun before the scene is placed: a driver takes about as long for the kernels as the tree takes to build.
 std::shared_ptr<KernelPipelines> RenderSession::Impl::kernelsFor(const RenderRequest& request, const Plan& plan,
-                                                                 RenderReport& report) {
+                                                                 const Sharing& sharing, RenderReport& report) {
   if (!isTraced(request.settings.method)) return nullptr;
-  if (kernels != nullptr && kernels->serve(device.info(), *request.scene, plan, request.settings)) {
+  if (kernels != nullptr && kernels->serve(device.info(), *request.scene, plan, request.settings, sharing.shares)) {
     report.reused.push_back("kernels");
     return kernels;
   }
-  kernels = std::make_shared<KernelPipelines>(device, *request.scene, plan, request.settings);
+  kernels = std::make_shared<KernelPipelines>(device, *request.scene, plan, request.settings, sharing.shares);
   return kernels;
 }
 
@@ -231,9 +257,12 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
 
   const Plan plan = makePlan(scene, settings);
   warnOfApproximations(scene, plan, settings);
-  const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, report);
-  PlacedScene& placed = impl_->place(request, report, phases);
+  Sharing sharing;
+  if (isTraced(settings.method)) sharing = planSharing(scene, originOf(request), plan, settings);
+  const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
+  PlacedScene& placed = impl_->place(request, sharing, report, phases);
   report.counters = placed.counters;
+  report.tree = placed.tree;
   Film& film = impl_->filmFor(
       {settings.width, settings.height, samplePattern(settings.spp, shapeOf(settings.filter), settings.seed),
        !settings.aovs.empty(), request.rows},

@@ -20,6 +20,12 @@ void describe(const RenderResult& result) {
   for (const EffectRecord& effect : result.report.effects) {
     logVerbose(fmt::format("effect {} is {}: {}", effect.name, effect.on ? "on" : "off", effect.reason));
   }
+  const TreeRecord& tree = result.report.tree;
+  if (!tree.kind.empty()) {
+    logVerbose(fmt::format("{} tree of rays, {} trees, {} instances, {:.1f} MiB, {:.1f} MiB saved: {}", tree.kind,
+                           tree.trees, tree.instances, static_cast<double>(tree.bytes) / (1u << 20),
+                           static_cast<double>(tree.bytesSaved) / (1u << 20), tree.reason));
+  }
   for (const auto& [pass, gpuMs] : result.report.gpuMs)
     logVerbose(fmt::format("device time of {}: {:.2f} ms", pass, gpuMs));
 }

@@ -11,6 +11,7 @@ enum class Method { wireframe, flat, gouraud, phong, whitted };
 enum class FlatVertex { first, last, centroid };         // where flat shading evaluates lighting
 enum class PixelFilter { box, tent, gaussian };          // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
 enum class KernelFamily { automatic, perLane, packet };  // of the ray kernels: same hits, other speed
+enum class InstanceMode { automatic, flatten, share };   // trees of instances (rays): same hits
 enum class TwoSided { material, always };                // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
@@ -23,10 +24,11 @@ struct RenderSettings {
   std::uint32_t msaa = 1;      // raster only: coverage samples 1, 2, 4, 8
   std::uint32_t maxDepth = 5;  // whitted: ray segments after the primary one; 0 is direct light only
   std::uint64_t seed = 0;
-  KernelFamily kernel = KernelFamily::automatic;  // rays only
-  bool shadows = true;                            // whitted
-  bool reflection = true;                         // whitted
-  bool refraction = true;                         // whitted; off: transmitted light goes straight on
+  KernelFamily kernel = KernelFamily::automatic;     // rays only
+  InstanceMode instances = InstanceMode::automatic;  // rays only
+  bool shadows = true;                               // whitted
+  bool reflection = true;                            // whitted
+  bool refraction = true;                            // whitted; off: transmitted light goes straight on
   bool infiniteViewer = false;
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;

@@ -65,11 +65,14 @@ bool branches(const Plan& plan) {
   return plan.has(Effect::reflection) || plan.has(Effect::refraction) || plan.has(Effect::transparency);
 }
 
-KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings) {
+KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings,
+                           bool sharedTrees) {
   KernelChoice choice;
+  choice.instances = sharedTrees;
   choice.family = settings.kernel == KernelFamily::automatic ? familyFor(device) : settings.kernel;
-  const bool packets = choice.family == KernelFamily::packet;
-  if (packets && !canRunPackets(device)) {
+  const bool wantsPackets = choice.family == KernelFamily::packet;
+  const bool packets = wantsPackets && !sharedTrees;  // only rays that go one by one walk shared trees
+  if (wantsPackets && !canRunPackets(device)) {
     throw DeviceError(
         fmt::format("--kernel packet needs subgroups of {} lanes, those of '{}' have {}; --kernel auto takes {}",
                     kPacketLanes, device.name, device.subgroupSize, nameOf(familyFor(device))));
@@ -113,11 +116,11 @@ std::uint32_t variantOf(const Scene& scene, const RenderSettings& settings) {
 }  // namespace
 
 KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan,
-                                 const RenderSettings& settings)
+                                 const RenderSettings& settings, bool sharedTrees)
     : device_(device),
       plan_(plan),
-      variant_(variantOf(scene, settings)),
-      choice_(chooseKernels(device.info(), plan, settings)),
+      variant_(variantOf(scene, settings) | (sharedTrees ? kVariantInstances : 0u)),
+      choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
       layout_(device,
               sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
                              kBindAovs, kBindRest},
@@ -137,10 +140,11 @@ void KernelPipelines::begin(const std::string& kernel, std::uint32_t variant) {
 }
 
 bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan,
-                            const RenderSettings& settings) const {
+                            const RenderSettings& settings, bool sharedTrees) const {
   const bool samePlan = plan.models == plan_.models && plan.lights == plan_.lights && plan.shapes == plan_.shapes &&
                         plan.effects == plan_.effects;
-  return samePlan && variantOf(scene, settings) == variant_ && chooseKernels(device, plan, settings) == choice_;
+  const std::uint32_t variant = variantOf(scene, settings) | (sharedTrees ? kVariantInstances : 0u);
+  return samePlan && variant == variant_ && chooseKernels(device, plan, settings, sharedTrees) == choice_;
 }
 
 void KernelPipelines::wait() {

@@ -31,14 +31,16 @@ struct KernelChoice {
   std::string shadow;
   std::string shadowRest;
   std::string gather;
-  bool wideTree = false;  // a tree with eight children per node is walked
-  bool quadTree = false;  // one with four
+  bool wideTree = false;   // a tree with eight children per node is walked
+  bool quadTree = false;   // one with four
+  bool instances = false;  // trees that instances share are walked
   KernelFamily family = KernelFamily::perLane;
 
   bool operator==(const KernelChoice&) const = default;
 };
 // DeviceError when a forced family cannot run on this device.
-KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings);
+KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings,
+                           bool sharedTrees = false);
 
 // The choice as it suits a scene: trees with more than two children may be too deep for the
 // stacks.
@@ -54,9 +56,11 @@ inline constexpr std::uint32_t kRaysPerGroup = 64;
 class KernelPipelines {
  public:
   // All but `device` may go afterwards.
-  KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan, const RenderSettings& settings);
+  KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan, const RenderSettings& settings,
+                  bool sharedTrees = false);
   // Would pipelines made for these be the same?
-  bool serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan, const RenderSettings& settings) const;
+  bool serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan, const RenderSettings& settings,
+             bool sharedTrees = false) const;
   void wait();  // until all are made
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }

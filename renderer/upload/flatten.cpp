@@ -56,6 +56,7 @@ class Flattener {
       : scene_(scene), origin_(origin), analyticShapes_(analyticShapes) {}
 
   FlatScene run() {
+    flat_.origin = origin_;
     for (const MeshInstance& instance : scene_.instances) {
       if (analyticShapes_ && instance.replacedByShape) continue;
       addInstance(instance);
@@ -70,11 +71,18 @@ class Flattener {
  private:
   void addInstance(const MeshInstance& instance) {
     const Placement place(instance.worldFromObject, origin_);
+    FlatInstance flat{.instance = static_cast<std::uint32_t>(&instance - scene_.instances.data()),
+                      .firstVertex = static_cast<std::uint32_t>(flat_.positions.size()),
+                      .firstTriangle = flat_.triangleCount(),
+                      .firstDraw = static_cast<std::uint32_t>(flat_.draws.size())};
     std::uint32_t primitiveBase = 0;
     for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
       addPrimitive(p, p.material, place, instance.instanceId, primitiveBase);
       primitiveBase += static_cast<std::uint32_t>(p.indices.size() / 3);
     }
+    flat.vertexCount = static_cast<std::uint32_t>(flat_.positions.size()) - flat.firstVertex;
+    flat.triangleCount = flat_.triangleCount() - flat.firstTriangle;
+    if (flat.triangleCount > 0) flat_.instances.push_back(flat);
   }
 
   void addPrimitive(const Primitive& p, int material, const Placement& place, std::uint32_t instanceId,
@@ -191,90 +199,10 @@ class Flattener {
   FlatScene flat_;
 };
 
-std::uint32_t primitiveFlags(const Material& m, std::uint32_t drawFlags, const RenderSettings& settings) {
-  const bool oneSided = !m.doubleSided && settings.twoSided != TwoSided::always;
-  std::uint32_t flags = oneSided ? shared::kPrimitiveCutsBackFaces : 0u;
-  if (m.alphaMode == AlphaMode::mask || isTransparent(m)) flags |= shared::kPrimitiveMayPass;
-  if (drawFlags & shared::kDrawFlipsWinding) flags |= shared::kPrimitiveFlipsWinding;
-  return flags;
-}
-
 }  // namespace
 
 FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes) {
   return Flattener(scene, origin, analyticShapes).run();
-}
-
-namespace {
-
-// Appends a tree behind those before it; its references move along.
-void append(const Bvh& tree, FlatBvh& all) {
-  const auto firstNode = static_cast<std::uint32_t>(all.nodes.size());
-  const auto firstPrimitive = static_cast<std::uint32_t>(all.primitives.size());
-  all.nodes.reserve(all.nodes.size() + tree.nodes.size());
-  const auto moved = [&](std::uint32_t child) {
-    if (!bvhIsLeaf(child)) return child + firstNode;
-    return bvhLeafCount(child) == 0 ? child : child + firstPrimitive;
-  };
-  for (shared::BvhNode node : tree.nodes) {
-    node.child0 = moved(node.child0);
-    node.child1 = moved(node.child1);
-    if (node.parent != shared::kNoId) node.parent += firstNode;
-    all.nodes.push_back(node);
-  }
-}
-
-std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
-  std::vector<std::uint32_t> drawOf(flat.triangleCount());
-  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
-    std::fill_n(drawOf.begin() + flat.draws[d].firstTriangle, flat.draws[d].triangleCount, d);
-  }
-  return drawOf;
-}
-
-}  // namespace
-
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more) {
-  FlatBvh result;
-  const auto flagsOf = [&](std::uint32_t drawId) {
-    const shared::DrawRecord& draw = flat.draws[drawId];
-    return primitiveFlags(scene.materials[draw.materialId], draw.flags, settings);
-  };
-  const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
-  append(triangles, result);
-  std::future<WideBvh> widening;
-  std::future<QuadBvh> quantizing;
-  if (more.quad) quantizing = std::async(std::launch::async, quantize, std::cref(triangles));
-  if (more.wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
-  const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
-  result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
-  for (const std::uint32_t t : triangles.order) {
-    const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
-    result.primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flagsOf(drawOf[t])});
-  }
-  const Bvh shapes = buildBvh(flat.shapeBounds);
-  result.shapeRoot = static_cast<std::uint32_t>(result.nodes.size());
-  append(shapes, result);
-  for (const std::uint32_t s : shapes.order) {
-    const std::uint32_t shape = flat.unboundedShapeCount + s;
-    const std::uint32_t drawId = flat.shapes[shape].drawId;
-    shared::BvhPrimitive p{};
-    p.id = shared::kPrimitiveIsShape | shape;
-    p.drawId = drawId;
-    p.flags = flagsOf(drawId);
-    result.primitives.push_back(p);
-  }
-  if (more.quad) {
-    QuadBvh four = quantizing.get();
-    result.quadNodes = std::move(four.nodes);
-    result.quadWaiting = four.mostWaiting;
-  }
-  if (more.wide) {
-    WideBvh eight = widening.get();
-    result.wideNodes = std::move(eight.nodes);
-    result.wideDepth = eight.maxDepth;
-  }
-  return result;
 }
 
 }  // namespace crosslight

@@ -31,12 +31,16 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
   wideNodes_ = gpu::Buffer::of(device, "wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
   primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
+  instances_ = gpu::Buffer::of(device, "instances", tree.instances, gpu::useUniformTexel);
+  instanceTriangles_ =
+      gpu::Buffer::of(device, "triangles of shared trees", tree.instanceTriangles, gpu::useUniformTexel);
 }
 
 void GpuScene::setSample(const glm::vec2& sampleOffset) {
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
   frame.shapeRoot = shapeRoot_;
+  frame.meshDrawCount = flat_.meshDrawCount;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));
 }
 
@@ -54,6 +58,8 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindBvhPrimitives, primitives_);
   set.set(kBindWideNodes, wideNodes_);
   set.set(kBindQuadNodes, quadNodes_);
+  set.set(kBindInstances, instances_);
+  set.set(kBindInstanceTriangles, instanceTriangles_);
   set.set(kBindMaterialTexels, materials_);
   set.set(kBindLightTexels, lights_);
   set.set(kBindDrawTexels, draws_);
@@ -76,6 +82,8 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindBvhPrimitives, texelBufferUint4},
                                      {kBindWideNodes, texelBufferUint4},
                                      {kBindQuadNodes, texelBufferUint4},
+                                     {kBindInstances, texelBufferUint4},
+                                     {kBindInstanceTriangles, texelBufferUint4},
                                      {kBindMaterialTexels, texelBufferUint4},
                                      {kBindLightTexels, texelBufferUint4},
                                      {kBindDrawTexels, texelBufferUint4},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/pipeline.h"
-#include "upload/flatten.h"
+#include "upload/flat_bvh.h"
 #include "upload/records.h"
 
 namespace crosslight {
@@ -38,7 +38,7 @@ class GpuScene {
   FlatScene flat_;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
-      primitives_, wideNodes_, quadNodes_;
+      primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
 };
 
 // The slots that GpuScene binds, for layouts, and buffers of the technique's own: storage, or texels of 4 words.

@@ -76,8 +76,7 @@ struct Closest {
   uint id;
 };
 
-void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
-  PrimitiveTexels p = fetchPrimitive(slot);
+void considerFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
   float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
   bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
@@ -86,6 +85,10 @@ void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, ino
   if (CL_HAS(alphaMask) && closer && (p.flags & kPrimitiveMayPass) != 0u)
     closer = !maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
   if (closer) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
+}
+
+void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
+  considerFetched(fetchPrimitive(slot), slot, ray, shear, cutBackFaces, best);
 }
 
 void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
@@ -205,11 +208,22 @@ void considerLeaf(Ray ray, RayShear shear, bool cutBackFaces, inout Closest best
   leaveLeaf(count, walk);
 }
 
+float lightPassedFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear) {
+  TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, ray.tMax);
+  float passed = 0.0;
+  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
+    passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
+  return h.hit && slot != ray.from ? passed : 1.0;
+}
+
+#include "accel/instances.glsl"
+
 // Triangles and shapes have a tree each: devices that run both sides of every branch would else pay for all shapes'
 // equations at every triangle.
 HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   Closest best = Closest(kMiss, kNoId);
   if (!isValid(ray)) return kMiss;
+  if (kInstances) return closestOfInstances(ray, cutBackFaces);
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
   Walk walk = Walk(0u, 0, 0u);
@@ -245,12 +259,7 @@ HitRecord closestShape(Ray ray, bool cutBackFaces, HitRecord sofar) {
 }
 
 float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
-  PrimitiveTexels p = fetchPrimitive(slot);
-  TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, ray.tMax);
-  float passed = 0.0;
-  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
-    passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
-  return h.hit && slot != ray.from ? passed : 1.0;
+  return lightPassedFetched(fetchPrimitive(slot), slot, ray, shear);
 }
 
 float lightPassedShape(uint slot, Ray ray) {
@@ -276,7 +285,8 @@ float lightPassed(Ray ray) {
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
   Walk walk = Walk(CL_HAS(triangles) ? 0u : kWalkDone, 0, 0u);
-  if (CL_HAS(triangles)) {
+  if (CL_HAS(triangles) && kInstances) passed = lightPassedInstances(ray);
+  if (CL_HAS(triangles) && !kInstances) {
     do {
       walkToLeaf(w, ray.tMax, walk);
       uint count = leafCount(walk);

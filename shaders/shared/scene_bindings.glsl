@@ -39,6 +39,9 @@ layout(set = 0, binding = kBindLightTexels) uniform usamplerBuffer lightTexels;
 layout(set = 0, binding = kBindDrawTexels) uniform usamplerBuffer drawTexels;
 layout(set = 0, binding = kBindShapeTexels) uniform usamplerBuffer shapeTexels;
 
+layout(set = 0, binding = kBindInstances) uniform usamplerBuffer instanceTexels;
+layout(set = 0, binding = kBindInstanceTriangles) uniform usamplerBuffer instanceTriangles;
+
 #include "record_texels.glsl"
 
 // Three words of a packed list, from the two texels that they may lie in: texel buffers may be sixteen times a storage

@@ -140,10 +140,11 @@ struct FrameRecord {
   uint unboundedShapeCount;  // planes: the first ones in the shape list, outside the BVH
   uint shapeRoot;            // node at which the shapes' tree begins; the triangles' begins at 0
   uint twoSided;             // 1: light and show both sides of every surface
+  uint meshDrawCount;        // DrawRecords of triangles: the first ones
   vec3 ambient;              // Ia
   vec3 background;
 };
-CL_SIZE(FrameRecord, 180)
+CL_SIZE(FrameRecord, 184)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {
@@ -225,6 +226,36 @@ struct BvhPrimitive {
   uint flags;  // kPrimitive*
 };
 CL_SIZE(BvhPrimitive, 48)
+// Trees that instances share: the root is the tree of instances, in render space; its leaves hold one instance each, an
+// index into this list. A ray goes on in the instance's object space through the tree of its mesh.
+struct InstanceRecord {
+  vec4 objectFromRenderX;  // row of the affine map: x = dot(row.xyz, p) + row.w
+  vec4 objectFromRenderY;
+  vec4 objectFromRenderZ;
+  vec3 margin;  // by which boxes are widened, for a ray that begins at zero: see shaders/accel/instances.glsl
+  uint root;    // node at which the mesh's tree begins
+  uint firstVertex;
+  uint firstTriangle;
+  uint firstDraw;
+  uint flags;  // kPrimitive*, of all its triangles
+};
+CL_SIZE(InstanceRecord, 80)
+
+// Triangle of a shared tree, in leaf order: vertices, triangle and primitive count from the instance's first ones.
+struct InstanceTriangle {
+  uint i0;
+  uint i1;
+  uint i2;
+  uint triangle;   // kPrimitive* << kTriangleFlagShift | triangle
+  uint primitive;  // of the mesh, those without triangles left out
+  uint unused0;
+  uint unused1;
+  uint unused2;
+};
+CL_SIZE(InstanceTriangle, 32)
+CL_CONST uint kTriangleFlagShift = 29u;
+CL_CONST uint kTriangleMask = 0x07ffffffu;
+
 CL_CONST uint kPrimitiveIsShape = 0x80000000u;
 CL_CONST uint kPrimitiveCutsBackFaces = 1u;  // primary rays pass through its back (single-sided material)
 CL_CONST uint kPrimitiveMayPass = 2u;        // alpha mask, blending or transmission: an occlusion test must look closer

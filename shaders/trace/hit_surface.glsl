@@ -30,7 +30,7 @@ TrianglePoint pointOnTriangle(PrimitiveTexels p, vec3 b) {
 vec3 barycentricsOf(HitRecord hit) { return vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2); }
 
 HitSurface triangleSurface(HitRecord hit) {
-  PrimitiveTexels p = fetchPrimitive(hit.primitive);
+  PrimitiveTexels p = fetchTriangle(hit.primitive);
   uvec3 corners = cornerIndices(p.id);
   VertexAttributes a0 = attributesOf(corners.x);
   VertexAttributes a1 = attributesOf(corners.y);

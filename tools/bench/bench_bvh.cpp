@@ -12,7 +12,7 @@
 #include "bench/embree_peer.h"
 #include "bench/knot_scene.h"
 #include "scene/load.h"
-#include "upload/flatten.h"
+#include "upload/flat_bvh.h"
 #include "upload/records.h"
 
 namespace crosslight::bench {

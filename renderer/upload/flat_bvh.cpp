@@ -1,0 +1,102 @@
+// The trees over a flattened scene, in one list of nodes.
+#include "upload/flat_bvh.h"
+
+#include <algorithm>
+#include <future>
+
+#include "effects/material_traits.h"
+
+namespace crosslight {
+namespace {
+
+std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
+  std::vector<std::uint32_t> drawOf(flat.triangleCount());
+  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) {
+    std::fill_n(drawOf.begin() + flat.draws[d].firstTriangle, flat.draws[d].triangleCount, d);
+  }
+  return drawOf;
+}
+
+template <class T>
+std::uint64_t bytesOf(const std::vector<T>& list) {
+  return list.size() * sizeof(T);
+}
+
+}  // namespace
+
+std::uint64_t FlatBvh::sizeBytes() const {
+  return bytesOf(nodes) + bytesOf(primitives) + bytesOf(wideNodes) + bytesOf(quadNodes) + bytesOf(instances) +
+         bytesOf(instanceTriangles);
+}
+
+std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
+                             std::uint32_t drawId) {
+  const shared::DrawRecord& draw = flat.draws[drawId];
+  const Material& m = scene.materials[draw.materialId];
+  const bool oneSided = !m.doubleSided && settings.twoSided != TwoSided::always;
+  std::uint32_t flags = oneSided ? shared::kPrimitiveCutsBackFaces : 0u;
+  if (m.alphaMode == AlphaMode::mask || isTransparent(m)) flags |= shared::kPrimitiveMayPass;
+  if (draw.flags & shared::kDrawFlipsWinding) flags |= shared::kPrimitiveFlipsWinding;
+  return flags;
+}
+
+void appendTree(const Bvh& tree, std::uint32_t firstPrimitive, std::vector<shared::BvhNode>& nodes) {
+  const auto firstNode = static_cast<std::uint32_t>(nodes.size());
+  nodes.reserve(nodes.size() + tree.nodes.size());
+  const auto moved = [&](std::uint32_t child) {
+    if (!bvhIsLeaf(child)) return child + firstNode;
+    return bvhLeafCount(child) == 0 ? child : child + firstPrimitive;
+  };
+  for (shared::BvhNode node : tree.nodes) {
+    node.child0 = moved(node.child0);
+    node.child1 = moved(node.child1);
+    if (node.parent != shared::kNoId) node.parent += firstNode;
+    nodes.push_back(node);
+  }
+}
+
+void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, FlatBvh& all) {
+  const Bvh shapes = buildBvh(flat.shapeBounds);
+  all.shapeRoot = static_cast<std::uint32_t>(all.nodes.size());
+  appendTree(shapes, static_cast<std::uint32_t>(all.primitives.size()), all.nodes);
+  for (const std::uint32_t s : shapes.order) {
+    const std::uint32_t shape = flat.unboundedShapeCount + s;
+    shared::BvhPrimitive p{};
+    p.id = shared::kPrimitiveIsShape | shape;
+    p.drawId = flat.shapes[shape].drawId;
+    p.flags = primitiveFlags(flat, scene, settings, p.drawId);
+    all.primitives.push_back(p);
+  }
+}
+
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more) {
+  FlatBvh result;
+  const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
+  appendTree(triangles, 0, result.nodes);
+  std::future<WideBvh> widening;
+  std::future<QuadBvh> quantizing;
+  if (more.quad) quantizing = std::async(std::launch::async, quantize, std::cref(triangles));
+  if (more.wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
+  const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
+  std::vector<std::uint32_t> flags;
+  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) flags.push_back(primitiveFlags(flat, scene, settings, d));
+  result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
+  for (const std::uint32_t t : triangles.order) {
+    const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
+    result.primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flags[drawOf[t]]});
+  }
+  appendShapes(flat, scene, settings, result);
+  if (more.quad) {
+    QuadBvh four = quantizing.get();
+    result.quadNodes = std::move(four.nodes);
+    result.quadWaiting = four.mostWaiting;
+  }
+  if (more.wide) {
+    WideBvh eight = widening.get();
+    result.wideNodes = std::move(eight.nodes);
+    result.wideDepth = eight.maxDepth;
+  }
+  return result;
+}
+
+}  // namespace crosslight

@@ -1,0 +1,40 @@
+// The trees over a flattened scene as the shaders read them.
+#pragma once
+
+#include <vector>
+
+#include "accel/wide_bvh.h"
+#include "upload/flatten.h"
+
+namespace crosslight {
+
+// One tree over the triangles and one over the bounded shapes, one behind the other, with the primitives in leaf order
+// as the shaders read them. Or trees that instances share (shared_trees.h): the first one is over instances then.
+struct FlatBvh {
+  std::vector<shared::BvhNode> nodes;  // the triangles' root is 0
+  std::uint32_t shapeRoot = 0;
+  std::vector<shared::BvhPrimitive> primitives;
+  std::vector<WideNode> wideNodes;  // if asked for: the triangles' tree, eight children per node
+  std::uint32_t wideDepth = 0;
+  std::vector<shared::QuadNode> quadNodes;  // if asked for: the same, four children per node
+  std::uint32_t quadWaiting = 0;
+  std::vector<shared::InstanceRecord> instances;  // empty: one tree over all triangles
+  std::vector<shared::InstanceTriangle> instanceTriangles;
+
+  std::uint64_t sizeBytes() const;
+};
+// Appends a tree behind those before it; its references move along. `firstPrimitive` is added to what its leaves name.
+void appendTree(const Bvh& tree, std::uint32_t firstPrimitive, std::vector<shared::BvhNode>& nodes);
+// Appends the tree over the bounded shapes, and its primitives.
+void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, FlatBvh& all);
+// What the walk asks of a draw's triangles: kPrimitive*.
+std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
+                             std::uint32_t drawId);
+// Trees beside the binary one that kernels walk.
+struct MoreTrees {
+  bool wide = true;
+  bool quad = true;
+};
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more = {});
+
+}  // namespace crosslight
