@@ -19,6 +19,19 @@ namespace {
 constexpr std::uint32_t kPacketLanes = 8;  // kLanes of shaders/accel/packet.glsl
 constexpr std::uint32_t kLightBatch = 16;
 
+// A kernel may be asked for any of these together.
+constexpr std::uint32_t kVariants[] = {kVariantOrthographic, kVariantManyLights, kVariantRest, kVariantAovs,
+                                       kVariantInstances};
+constexpr bool areApart() {
+  std::uint32_t seen = 0;
+  for (const std::uint32_t bit : kVariants) {
+    if ((seen & bit) != 0) return false;
+    seen |= bit;
+  }
+  return true;
+}
+static_assert(areApart(), "two variants of the ray kernels share a bit");
+
 struct Family {
   KernelFamily family;
   const char* name;

@@ -66,7 +66,7 @@ CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' v
 CL_CONST uint kVariantOrthographic = 2u;       // camera kernels: rays do not begin at one point
 CL_CONST uint kVariantFilmParts = 1u;          // accumulate: FilmParts too
 CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the groups that kBindRest lists
-CL_CONST uint kVariantInstances = 16u;         // kernels of rays: instances share trees; hits name flattened triangles
+CL_CONST uint kVariantInstances = 64u;         // kernels of rays: instances share trees; hits name flattened triangles
 CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
 CL_CONST uint kVariantAovs = 16u;              // shade: the primary level writes AovRecords
 
