@@ -62,6 +62,13 @@ class FrameScenes {
   double posedSeconds_ = 0, turnedDegrees_ = 0;
 };
 
+double phaseMs(const Times& timesMs, const std::string& phase) {
+  for (const auto& [name, wallMs] : timesMs) {
+    if (name == phase) return wallMs;
+  }
+  return 0;
+}
+
 using FrameSink = std::function<void(const Frame&, const Image&)>;
 
 class FrameRun {
@@ -151,7 +158,7 @@ class FrameRun {
                           fmt::format("{}frame {}/{} ", context_.task, index + 1, work_.frames.size())};
     // One frame is drawn while the one before is written.
     const std::uint64_t besideBytes = fileBytesPerPixel(work_) + layerBytesPerPixel(settings.aovs);
-    RenderResult result = drawWithProgress(work_, context, {scene, settings, {}, besideBytes});
+    RenderResult result = drawWithProgress(work_, context, {scene, settings, {}, besideBytes, true});
     const gpu::DeviceInfo& device = context_.device.get().info();
     describeInMetadata(result, settings, device);
     for (const auto& [phase, ms] : result.report.timesMs) add(phase, ms);
@@ -164,6 +171,9 @@ class FrameRun {
                        {"turnDegrees", frame.turnDegrees},
                        {"output", video ? Json(nullptr) : Json(nameOf(frame))},
                        {"drawMs", drawMs},
+                       {"bvhMs", phaseMs(result.report.timesMs, "bvh")},
+                       {"treesBuilt", result.report.tree.built},
+                       {"treesMoved", result.report.tree.moved},
                        {"reused", result.report.reused}});
     logVerbose(fmt::format("frame {} drawn in {:.1f} ms", frame.number, drawMs));
     return std::move(result.image);

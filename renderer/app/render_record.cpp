@@ -11,7 +11,8 @@ namespace {
 
 Json treeJson(const TreeRecord& tree) {
   return {{"kind", tree.kind},   {"reason", tree.reason}, {"instances", tree.instances},
-          {"trees", tree.trees}, {"bytes", tree.bytes},   {"bytesSaved", tree.bytesSaved}};
+          {"trees", tree.trees}, {"bytes", tree.bytes},   {"bytesSaved", tree.bytesSaved},
+          {"built", tree.built}, {"moved", tree.moved},   {"unchanged", tree.unchanged}};
 }
 
 Json settingsJson(const RenderSettings& s, const RenderOptions& o) {

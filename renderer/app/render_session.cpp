@@ -132,6 +132,7 @@ struct RenderSession::Impl {
 
   PlacedScene& place(const RenderRequest& request, const Sharing& sharing, RenderReport& report, Phases& phases);
   void make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing, Phases& phases);
+  KeptTrees* keptFor(const RenderRequest& request);
   FlatBvh treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing, TreeRecord& record);
   Film& filmFor(const FilmSettings& settings, RenderReport& report);
   std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, const Sharing& sharing,
@@ -141,21 +142,36 @@ struct RenderSession::Impl {
 
   gpu::Device& device;
   std::list<PlacedScene> scenes;  // the latest first
+  KeptTrees keptTrees;            // of the last frame
   PlacedFilm film;
   std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
 };
+
+// Where shadows multiply what several transparent surfaces let pass the order of the walk shows in the last bit, and
+// with it whether a tree was built or moved: there each frame gets its own.
+KeptTrees* RenderSession::Impl::keptFor(const RenderRequest& request) {
+  if (!request.isFrame) return nullptr;
+  const Plan plan = makePlan(*request.scene, request.settings);
+  return plan.has(Effect::transparency) && plan.has(Effect::shadows) ? nullptr : &keptTrees;
+}
 
 FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing,
                                       TreeRecord& record) {
   FlatBvh trees;
   if (sharing.shares) {
     SharedTreesReport report;
-    trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report);
-    record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved};
+    trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, keptFor(request));
+    record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved, report.trees};
   } else {
-    trees =
-        buildFlatBvh(flat, *request.scene, request.settings, {kernels->choice().wideTree, kernels->choice().quadTree});
-    record = {"flat", sharing.reason, flat.instances.size(), 1, 0, 0};
+    trees = buildFlatBvh(flat, *request.scene, request.settings,
+                         {kernels->choice().wideTree, kernels->choice().quadTree}, keptFor(request));
+    record = {"flat", sharing.reason, flat.instances.size(), 1, 0, 0, 1};
+  }
+  if (keptFor(request) != nullptr) {
+    const KeptTrees::Counts counts = keptTrees.takeCounts();
+    record.built = counts.built;
+    record.moved = counts.moved;
+    record.unchanged = counts.unchanged;
   }
   record.bytes = trees.sizeBytes();
   return trees;

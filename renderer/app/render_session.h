@@ -15,6 +15,7 @@ struct RenderRequest {
   RenderSettings settings;
   std::vector<Band> rows = {};          // the image holds these rows only; empty: all
   std::uint64_t fileBytesPerPixel = 0;  // of the image's file while it is made, for the estimate of memory
+  bool isFrame = false;                 // others like it follow: trees are kept, and moved where triangles move
 };
 
 class RenderSession {

@@ -69,9 +69,12 @@ void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSetting
   }
 }
 
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more) {
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more,
+                     KeptTrees* kept) {
   FlatBvh result;
-  const Bvh triangles = buildTriangleBvh({flat.positions, flat.indices});
+  Bvh own;
+  if (kept == nullptr) own = buildTriangleBvh({flat.positions, flat.indices});
+  const Bvh& triangles = kept ? kept->over(kRenderSpaceTree, {flat.positions, flat.indices}) : own;
   appendTree(triangles, 0, result.nodes);
   std::future<WideBvh> widening;
   std::future<QuadBvh> quantizing;

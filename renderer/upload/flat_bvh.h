@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "accel/kept_trees.h"
 #include "accel/wide_bvh.h"
 #include "upload/flatten.h"
 
@@ -30,11 +31,16 @@ void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSetting
 // What the walk asks of a draw's triangles: kPrimitive*.
 std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
                              std::uint32_t drawId);
+// Key among kept trees of that in render space; those of meshes have their numbers.
+inline constexpr int kRenderSpaceTree = -1;
+
 // Trees beside the binary one that kernels walk.
 struct MoreTrees {
   bool wide = true;
   bool quad = true;
 };
-FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more = {});
+// With `kept` the tree of the frame before is moved where that is possible.
+FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more = {},
+                     KeptTrees* kept = nullptr);
 
 }  // namespace crosslight

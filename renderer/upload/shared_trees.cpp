@@ -99,8 +99,9 @@ MeshTriangles restOf(const FlatScene& flat, const std::vector<const FlatInstance
 
 class Builder {
  public:
-  Builder(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, const Sharing& sharing)
-      : flat_(flat), scene_(scene), settings_(settings), sharing_(sharing) {}
+  Builder(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, const Sharing& sharing,
+          KeptTrees* kept)
+      : flat_(flat), scene_(scene), settings_(settings), sharing_(sharing), kept_(kept) {}
 
   FlatBvh run(SharedTreesReport& report) {
     std::vector<const FlatInstance*> rest;
@@ -109,7 +110,7 @@ class Builder {
       const bool shares = sharing_.byMesh[instance.instance];
       (shares ? byMesh[scene_.instances[instance.instance].mesh] : rest).push_back(&instance);
     }
-    for (const auto& [mesh, instances] : byMesh) addMesh(scene_.meshes[static_cast<std::size_t>(mesh)], instances);
+    for (const auto& [mesh, instances] : byMesh) addMesh(mesh, instances);
     if (!rest.empty()) addRest(rest);
     report.instances = static_cast<std::uint32_t>(records_.size());
     report.trees = trees_;
@@ -124,9 +125,11 @@ class Builder {
 
  private:
   // Appends a tree; its root.
-  std::uint32_t addTree(const BvhTriangles& triangles, const std::vector<std::uint32_t>& primitiveOf,
+  std::uint32_t addTree(int key, const BvhTriangles& triangles, const std::vector<std::uint32_t>& primitiveOf,
                         const std::vector<std::uint32_t>* triangleOf, const auto& flagsOf) {
-    const Bvh tree = buildTriangleBvh(triangles);
+    Bvh built;
+    if (kept_ == nullptr) built = buildTriangleBvh(triangles);
+    const Bvh& tree = kept_ ? kept_->over(key, triangles) : built;
     const auto root = static_cast<std::uint32_t>(nodes_.size());
     appendTree(tree, static_cast<std::uint32_t>(triangles_.size()), nodes_);
     for (const std::uint32_t t : tree.order) {
@@ -142,13 +145,14 @@ class Builder {
     return root;
   }
 
-  void addMesh(const Mesh& mesh, const std::vector<const FlatInstance*>& instances) {
+  void addMesh(int number, const std::vector<const FlatInstance*>& instances) {
+    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(number)];
     const MeshTriangles own = trianglesOf(mesh);
     const auto flags = [&](std::uint32_t primitive) {
       return primitiveFlags(flat_, scene_, settings_, instances.front()->firstDraw + primitive) &
              ~shared::kPrimitiveFlipsWinding;  // that is the instance's
     };
-    const std::uint32_t root = addTree({own.positions, own.indices}, own.primitiveOf, nullptr, flags);
+    const std::uint32_t root = addTree(number, {own.positions, own.indices}, own.primitiveOf, nullptr, flags);
     const DBounds box = boundsOf(mesh);
     const glm::dvec3 origin = flat_.origin;
     for (const FlatInstance* instance : instances) {
@@ -172,7 +176,7 @@ class Builder {
     Bounds bounds;
     for (const std::uint32_t i : all.indices) bounds.add(flat_.positions[i]);
     shared::InstanceRecord record = renderSpaceMap(bounds);
-    record.root = addTree({flat_.positions, all.indices}, all.primitiveOf, &triangleOf, flags);
+    record.root = addTree(kRenderSpaceTree, {flat_.positions, all.indices}, all.primitiveOf, &triangleOf, flags);
     add(record, bounds);
   }
 
@@ -207,6 +211,7 @@ class Builder {
   const Scene& scene_;
   const RenderSettings& settings_;
   const Sharing& sharing_;
+  KeptTrees* kept_;
   std::vector<shared::BvhNode> nodes_;
   std::vector<shared::InstanceTriangle> triangles_;
   std::vector<shared::InstanceRecord> records_;
@@ -217,8 +222,8 @@ class Builder {
 }  // namespace
 
 FlatBvh buildSharedTrees(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
-                         const Sharing& sharing, SharedTreesReport& report) {
-  return Builder(flat, scene, settings, sharing).run(report);
+                         const Sharing& sharing, SharedTreesReport& report, KeptTrees* kept) {
+  return Builder(flat, scene, settings, sharing, kept).run(report);
 }
 
 }  // namespace crosslight
