@@ -68,6 +68,7 @@ struct DeviceImpl {
   std::uint32_t queueFamily = 0;
   vk::raii::Device device{nullptr};
   vk::raii::Queue queue{nullptr};
+  std::mutex queueMutex = {};  // kernels are warmed up from threads of their own
   vk::raii::CommandPool transferPool{nullptr};
   vk::raii::PipelineCache pipelineCache{nullptr};
   PipelinePool pipelines = {};  // dies before the device
@@ -185,6 +186,7 @@ void nameObject(const DeviceImpl& device, const Handle& handle, const std::strin
 
 // Everything before is finished and visible, to the host too, for everything after.
 void fullBarrier(const vk::raii::CommandBuffer& commands);
+void submit(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fence);
 // Submits and waits; see Commands::submitAndWait.
 void submitAndWait(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fence, double timeoutSeconds,
                    std::string_view what);

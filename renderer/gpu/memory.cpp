@@ -56,12 +56,15 @@ void checkSize(const DeviceImpl& device, const std::string& name, std::uint64_t 
   limit(true, device.maxAllocationBytes, "maxMemoryAllocationSize");
 }
 
-// llvmpipe compiles a shader once more for texel buffers whose size is a power of two: none has such a size here, so
-// that the size of a picture or a scene does not decide whether a kernel is compiled again.
+// llvmpipe compiles a shader once more for texel buffers whose size is a power of two, and for those whose size has no
+// bit of the second byte set, which it takes for the number of mip levels (Mesa 22.3.6, `level_zero_only`). None has
+// such a size here: that of a picture or a scene does not decide whether a kernel is compiled again.
 std::uint64_t blocksFor(const DeviceImpl& device, std::uint64_t sizeBytes, std::uint32_t use) {
   const std::uint64_t blocks = std::max<std::uint64_t>(1, (sizeBytes + kGranularityBytes - 1) / kGranularityBytes);
-  const bool mayGrow = (use & useUniformTexel) != 0 && blocks < device.limits.maxTexelBufferElements;
-  return mayGrow && std::has_single_bit(blocks) ? blocks + 1 : blocks;
+  constexpr std::uint64_t kSecondByte = 0xff00 / kGranularityBytes, kLowestOfIt = 0x100 / kGranularityBytes;
+  const std::uint64_t grown = (blocks & kSecondByte) == 0 ? blocks + kLowestOfIt : blocks;
+  const std::uint64_t odd = std::has_single_bit(grown) ? grown + 1 : grown;
+  return (use & useUniformTexel) != 0 && odd <= device.limits.maxTexelBufferElements ? odd : blocks;
 }
 
 Owned<BufferImpl> makeBuffer(DeviceImpl& device, std::string name, std::uint64_t sizeBytes, std::uint32_t use) {

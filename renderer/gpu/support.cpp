@@ -65,12 +65,17 @@ void fullBarrier(const vk::raii::CommandBuffer& commands) {
   commands.pipelineBarrier2(vk::DependencyInfo().setMemoryBarriers(barrier));
 }
 
+void submit(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fence) {
+  const std::scoped_lock lock(device.queueMutex);
+  const vk::CommandBufferSubmitInfo buffer(commands);
+  device.queue.submit2(vk::SubmitInfo2().setCommandBufferInfos(buffer), fence);
+}
+
 void submitAndWait(DeviceImpl& device, vk::CommandBuffer commands, vk::Fence fence, double timeoutSeconds,
                    std::string_view what) {
   if (device.abandoned) throw InternalError("the device " + device.info.name + " hangs since an earlier wait");
   device.device.resetFences(fence);
-  const vk::CommandBufferSubmitInfo buffer(commands);
-  device.queue.submit2(vk::SubmitInfo2().setCommandBufferInfos(buffer), fence);
+  submit(device, commands, fence);
   // Beyond 2^62 ns (146 years) there is no difference, and the conversion stays defined.
   const double timeoutNs = std::clamp(timeoutSeconds * 1e9, 0.0, 0x1p62);
   if (device.device.waitForFences(fence, VK_TRUE, static_cast<std::uint64_t>(timeoutNs)) == vk::Result::eTimeout) {

@@ -126,6 +126,14 @@ std::uint32_t variantOf(const Scene& scene, const RenderSettings& settings) {
   return (orthographic ? kVariantOrthographic : 0u) | (scene.lights.size() > kLightBatch ? kVariantManyLights : 0u);
 }
 
+gpu::BindingLayout layoutOn(const gpu::Device& device) {
+  return {device,
+          sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
+                         kBindAovs, kBindRest},
+                        {kBindRayTexels, kBindHitTexels, kBindNodeTexels}),
+          sizeof(TracePush)};
+}
+
 }  // namespace
 
 KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan,
@@ -134,11 +142,8 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
       plan_(plan),
       variant_(variantOf(scene, settings) | (sharedTrees ? kVariantInstances : 0u)),
       choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
-      layout_(device,
-              sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
-                             kBindAovs, kBindRest},
-                            {kBindRayTexels, kBindHitTexels, kBindNodeTexels}),
-              sizeof(TracePush)) {
+      layout_(layoutOn(device)),
+      warmUp_(device, layout_) {
   for (const std::string& name : {choice_.camera, choice_.shadow, choice_.shapes, choice_.secondary, choice_.gather}) {
     begin(name, 0);
   }
@@ -149,7 +154,35 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
 void KernelPipelines::begin(const std::string& kernel, std::uint32_t variant) {
   const Key key{kernel, variant};
   if (kernel.empty() || pending_.contains(key)) return;
-  pending_[key] = std::async(std::launch::async, [this, key] { return make(key); });
+  pending_[key] = std::async(std::launch::async, [this, key] {
+    gpu::ComputePipeline pipeline = makeOn(device_, layout_, key);
+    if (key.first == choice_.shadow && warmUp_.compiles()) compileElsewhere(key);
+    warmUp_.add(pipeline);
+    return pipeline;
+  });
+}
+
+// A software driver compiles kernels one after the other. A second instance of it compiles beside the first, and leaves
+// the code in the driver's cache on disk, at the latest when it goes; there the first finds it. Where that cache is
+// switched off, nothing is won.
+void KernelPipelines::compileElsewhere(const Key& key) const {
+  if (device_.validationOn()) return;  // would watch both
+  try {
+    gpu::DeviceOptions options;
+    options.selector = std::to_string(device_.info().index);
+    const gpu::Device other = gpu::Device::open(options);
+    const gpu::BindingLayout layout = layoutOn(other);
+    const gpu::ComputePipeline pipeline = makeOn(other, layout, key);
+    gpu::WarmUp(other, layout).add(pipeline);
+  } catch (const Error&) {
+    // The first device does it all, then.
+  }
+}
+
+// Threads first, since they use the warm-up; then the warm-up, since it uses what they made.
+KernelPipelines::~KernelPipelines() {
+  for (auto& [key, making] : pending_) making.wait();
+  warmUp_ = {};
 }
 
 bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan,
@@ -167,8 +200,9 @@ void KernelPipelines::wait() {
   }
 }
 
-gpu::ComputePipeline KernelPipelines::make(const Key& key) const {
-  return {device_, layout_, gpu::embeddedShader(key.first), constantsOf(plan_, variant_ | key.second)};
+gpu::ComputePipeline KernelPipelines::makeOn(const gpu::Device& device, const gpu::BindingLayout& layout,
+                                             const Key& key) const {
+  return {device, layout, gpu::embeddedShader(key.first), constantsOf(plan_, variant_ | key.second)};
 }
 
 const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel, std::uint32_t variant) {
@@ -179,7 +213,7 @@ const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel, std:
     pending_.erase(found);
   }
   gpu::ComputePipeline& pipeline = ready_[key];
-  if (!pipeline) pipeline = make(key);
+  if (!pipeline) pipeline = makeOn(device_, layout_, key);
   return pipeline;
 }
 

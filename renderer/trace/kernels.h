@@ -8,6 +8,7 @@
 
 #include "effects/effects.h"
 #include "gpu/pipeline.h"
+#include "gpu/warm_up.h"
 #include "scene/settings.h"
 #include "upload/gpu_scene.h"
 
@@ -58,6 +59,9 @@ class KernelPipelines {
   // All but `device` may go afterwards.
   KernelPipelines(const gpu::Device& device, const Scene& scene, const Plan& plan, const RenderSettings& settings,
                   bool sharedTrees = false);
+  KernelPipelines(const KernelPipelines&) = delete;
+  KernelPipelines& operator=(const KernelPipelines&) = delete;
+  ~KernelPipelines();
   // Would pipelines made for these be the same?
   bool serve(const gpu::DeviceInfo& device, const Scene& scene, const Plan& plan, const RenderSettings& settings,
              bool sharedTrees = false) const;
@@ -72,7 +76,8 @@ class KernelPipelines {
   using Key = std::pair<std::string, std::uint32_t>;
 
   void begin(const std::string& kernel, std::uint32_t variant);
-  gpu::ComputePipeline make(const Key& key) const;
+  gpu::ComputePipeline makeOn(const gpu::Device& device, const gpu::BindingLayout& layout, const Key& key) const;
+  void compileElsewhere(const Key& key) const;
 
   const gpu::Device& device_;
   Plan plan_;
@@ -81,6 +86,7 @@ class KernelPipelines {
   gpu::BindingLayout layout_;
   std::map<Key, std::future<gpu::ComputePipeline>> pending_;
   std::map<Key, gpu::ComputePipeline> ready_;
+  gpu::WarmUp warmUp_;
 };
 
 // Lights whose visibility is kept at once.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <thread>
 
+#include "gpu/warm_up.h"
 #include "gpu_fixture.h"
 
 namespace crosslight::gpu {
@@ -71,6 +73,38 @@ TEST_F(GpuTest, ConstantsPushesAndEveryKindOfBindingReachTheShader) {
     EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(factor, 100));
     EXPECT_GT(commands.submitToIdleMs(), 0.0);
   }
+}
+
+// And while threads warm up, others may run.
+TEST_F(GpuTest, WarmedUpKernelsDoTheSameAndWarmingUpTouchesNothing) {
+  const ScaleAdd job(device());
+  const std::vector<std::uint32_t> before = job.out.readAll<std::uint32_t>();
+  {
+    WarmUp warmUp(device(), job.layout);
+    std::thread other([&] { warmUp.add(job.pipeline); });
+    Commands commands(device());
+    commands.begin();
+    commands.submitAndWait();
+    other.join();
+    warmUp.compiles();
+  }
+  EXPECT_EQ(job.out.readAll<std::uint32_t>(), before);
+  Commands commands(device());
+  commands.begin();
+  job.record(commands, 100);
+  commands.submitAndWait();
+  EXPECT_EQ(job.out.readAll<std::uint32_t>(), job.expected(3, 100));
+}
+
+TEST_F(GpuTest, WhatIsInTheDriversCacheIsNotSaidToCompile) {
+  const ScaleAdd job(device());
+  Commands commands(device());
+  commands.begin();
+  job.record(commands, 1);
+  commands.submitAndWait();
+  WarmUp warmUp(device(), job.layout);
+  warmUp.add(job.pipeline);
+  EXPECT_FALSE(warmUp.compiles()) << "it has run before";
 }
 
 TEST_F(GpuTest, AUniformWindowShowsTheRecordThatItWasMovedTo) {
