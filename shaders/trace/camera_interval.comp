@@ -8,16 +8,17 @@
 #define CL_RAYS_PER_LANE 8
 #define CL_ORIGIN_ZERO ((specVariant & kVariantOrthographic) == 0u)
 #include "accel/interval.glsl"
+#include "trace/groups.glsl"
 
 layout(local_size_x = 8) in;
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
-uint rayIndex(int k) { return (gl_WorkGroupID.x * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
+uint rayIndex(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
 
 void main() {
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) startRay(k, cameraRay(cameraPlace(rayIndex(k))));
-  if (!closestForInterval(true)) giveUp(gl_WorkGroupID.x);
+  if (!closestForInterval(true)) giveUp(spreadGroup());
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
     if (rayIndex(k) < pushed.nodeCount) hits[rayIndex(k)] = foundBy(k);
   }

@@ -7,12 +7,13 @@
 #include "trace/shadow_ray.glsl"
 #define CL_RAYS_PER_LANE 8
 #include "accel/packet_occluded.glsl"
+#include "trace/groups.glsl"
 
 layout(local_size_x = 8) in;
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
-uint rayIndex(int k) { return (gl_WorkGroupID.x * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
+uint rayIndex(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
 
 void main() {
   LightRecord light = lightOf(pushed.firstLight + pushed.lightInBatch);
@@ -27,7 +28,7 @@ void main() {
     startShadowRay(k, to.ray, counts);
     traced += counts ? 1u : 0u;
   }
-  if (!searchBlockers()) giveUp(gl_WorkGroupID.x);
+  if (!searchBlockers()) giveUp(spreadGroup());
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
     if (rayIndex(k) < pushed.nodeCount)
       visibilities[pushed.lightInBatch * pushed.nodeCount + rayIndex(k)] = blocked_[k] ? 0.0 : 1.0;
