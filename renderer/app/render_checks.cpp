@@ -95,26 +95,55 @@ MemoryLimits memoryLimitsOf(const gpu::DeviceInfo& info) {
   return {availableHostBytes(), info.deviceLocalBytes, info.isSoftware};
 }
 
-MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request) {
+namespace {
+
+// Bytes of a scene that is flattened, given a tree and moved to the device, at the three moments that need most.
+struct SceneBytes {
+  std::uint64_t building = 0, built = 0, onDevice = 0;
+  std::uint64_t largestList = 0;  // on both sides while it is moved
+  std::uint64_t kept = 0;         // trees for the next frame
+};
+
+// Per triangle, of trees over 10 thousand to 20 million of them: 0.50 to 0.56 nodes, here three quarters; a wide node
+// for 2.7 of those, a node of four for 1.6.
+constexpr std::uint64_t kNodeBytes = 3 * sizeof(shared::BvhNode) / 4;
+constexpr std::uint64_t kMoreNodesBytes =
+    kNodeBytes * sizeof(WideNode) / (sizeof(shared::BvhNode) * 27 / 10) + kNodeBytes * 10 / 16;
+constexpr std::uint64_t kTreeBytes = kNodeBytes + kMoreNodesBytes + sizeof(shared::BvhPrimitive);
+// References on either side of a partition, and order; then order and each triangle's draw.
+constexpr std::uint64_t kBuildBytes = 2 * 32 + 4 + kNodeBytes, kJoinBytes = 2 * 4;
+
+SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved) {
+  const SceneStats& stats = request.scene->stats;
+  const std::uint64_t attributes = stats.vertices * sizeof(shared::VertexAttributes);
+  const std::uint64_t flat =
+      attributes + stats.vertices * sizeof(glm::vec3) + stats.triangles * 3 * sizeof(std::uint32_t);
+  std::uint64_t texels = 0;
+  for (const TextureImage& image : request.scene->images) texels += image.rgba.size() * sizeof(float);
+  if (!isTraced(request.settings.method)) return {flat, flat, flat + texels, flat + texels};
+  const std::uint64_t inTrees = stats.triangles - std::min(stats.triangles, trianglesSaved);
+  const std::uint64_t kept = request.isFrame ? inTrees * (kNodeBytes + 4) : 0;  // for the next frame
+  return {flat + inTrees * kBuildBytes + kept, flat + inTrees * (kTreeBytes + kJoinBytes) + kept,
+          flat + texels + inTrees * kTreeBytes, std::max({attributes, texels, inTrees * kMoreNodesBytes}), kept};
+}
+
+}  // namespace
+
+MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved) {
   const RenderSettings& s = request.settings;
   const std::uint64_t pixels = rowsOf(request) * s.width;
   MemoryNeed need;
   need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
   need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
                             (isTraced(s.method) ? 0 : targetBytes(s));
-  // A tree has about one node per triangle at the build's leaf sizes, and lists boxes and order while it is built. A
-  // wide node takes the place of seven, full ones; they are rarely full: two to seven.
-  constexpr std::uint64_t kTreeBytes =
-      2 * sizeof(shared::BvhNode) + 2 * sizeof(WideNode) / 7 + sizeof(shared::BvhPrimitive);
-  constexpr std::uint64_t kBuildBytes = 64;
-  const SceneStats& stats = request.scene->stats;
-  const std::uint64_t flatBytes = stats.vertices * (sizeof(glm::vec3) + sizeof(shared::VertexAttributes)) +
-                                  stats.triangles * 3 * sizeof(std::uint32_t);
-  std::uint64_t texelBytes = 0;
-  for (const TextureImage& image : request.scene->images) texelBytes += image.rgba.size() * sizeof(float);
-  const std::uint64_t treeBytes = isTraced(s.method) ? stats.triangles * kTreeBytes : 0;
-  need.hostSceneBytes = flatBytes + texelBytes + treeBytes + (isTraced(s.method) ? stats.triangles * kBuildBytes : 0);
-  need.deviceSceneBytes = flatBytes + texelBytes + treeBytes;
+  const SceneBytes scene = sceneBytes(request, trianglesSaved);
+  need.deviceSceneBytes = scene.onDevice;
+  need.hostSceneBytes = std::max(scene.building, scene.built);
+  // What the device takes over is let go of list by list: on shared memory the two do not add up.
+  if (info.isSoftware) {
+    need.hostSceneBytes =
+        std::max(need.hostSceneBytes, scene.onDevice + scene.largestList + scene.kept) - scene.onDevice;
+  }
   return need;
 }
 

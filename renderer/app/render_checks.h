@@ -15,11 +15,12 @@ void checkAgainstDevice(const gpu::DeviceInfo& info, const RenderSettings& setti
 // Bytes that a render takes beyond those of its loaded scene. Those of the picture shrink with the rows that are drawn.
 struct MemoryNeed {
   std::uint64_t hostPictureBytes = 0;    // the image, and its file while that is made
-  std::uint64_t hostSceneBytes = 0;      // flattened scene and trees
+  std::uint64_t hostSceneBytes = 0;      // flattened scene and trees; where memory is shared, beyond the device's
   std::uint64_t devicePictureBytes = 0;  // film, render targets, ray store
   std::uint64_t deviceSceneBytes = 0;
 };
-MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request);
+// `trianglesSaved`: those that need no place in a tree because instances share one.
+MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved = 0);
 
 struct MemoryLimits {
   std::uint64_t hostBytes = 0;    // that can be had now

@@ -40,6 +40,7 @@ struct RenderReport {
   std::map<std::string, std::uint64_t> counters;  // triangles, draws, bvhNodes, pixels, samples, ...
   std::uint64_t nonfinite = 0;                    // NaN or Inf samples seen by the film
   std::uint64_t deviceBytes = 0;                  // peak
+  std::uint64_t neededBytes = 0;                  // estimated beforehand: picture and scene, on host and device
   std::string promise;                            // light paths that the method computes, Heckbert's notation
   std::string pixelFilter;                        // in words
   TreeRecord tree;

@@ -60,6 +60,7 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
   if (!report.tree.kind.empty()) record["tree"] = treeJson(report.tree);
   record["nonfinite"] = report.nonfinite;
   record["deviceBytes"] = report.deviceBytes;
+  record["neededBytes"] = report.neededBytes;
   record["reused"] = report.reused;
   record["promise"] = report.promise;
   record["pixelFilter"] = report.pixelFilter;

@@ -196,7 +196,10 @@ void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& o
   scenes.push_front(std::move(placed));
   PlacedScene& kept = scenes.front();
   try {
-    kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), traced ? &bvh : nullptr);
+    if (traced)
+      kept.onDevice = GpuScene::forRays(device, scene, kept.settings, std::move(flat), std::move(bvh));
+    else
+      kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), nullptr);
   } catch (...) {
     scenes.pop_front();
     throw;
@@ -266,15 +269,16 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   const RenderSettings& settings = request.settings;
   checkSettings(scene, settings);
   checkAgainstDevice(impl_->device.info(), settings);
-  checkMemory(memoryNeedOf(impl_->device.info(), request), memoryLimitsOf(impl_->device.info()), settings);
   RenderResult result;
   RenderReport& report = result.report;
   Phases phases(report);
 
   const Plan plan = makePlan(scene, settings);
-  warnOfApproximations(scene, plan, settings);
   Sharing sharing;
   if (isTraced(settings.method)) sharing = planSharing(scene, originOf(request), plan, settings);
+  const MemoryNeed need = memoryNeedOf(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
+  checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
+  warnOfApproximations(scene, plan, settings);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
   PlacedScene& placed = impl_->place(request, sharing, report, phases);
   report.counters = placed.counters;
@@ -305,6 +309,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.counters["samples"] = report.counters["pixels"] * settings.spp;
   report.nonfinite = exposed.nonfinite;
   report.deviceBytes = impl_->device.peakAllocatedBytes();
+  report.neededBytes = need.hostPictureBytes + need.hostSceneBytes + need.devicePictureBytes + need.deviceSceneBytes;
   report.promise = technique->promise();
   report.pixelFilter = describeFilter(settings);
   return result;

@@ -17,6 +17,18 @@ std::vector<std::uint32_t> drawOfTriangle(const FlatScene& flat) {
   return drawOf;
 }
 
+void fillPrimitives(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
+                    const std::vector<std::uint32_t>& order, std::vector<shared::BvhPrimitive>& primitives) {
+  const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
+  std::vector<std::uint32_t> flags;
+  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) flags.push_back(primitiveFlags(flat, scene, settings, d));
+  primitives.reserve(order.size() + flat.shapeBounds.size());
+  for (const std::uint32_t t : order) {
+    const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
+    primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flags[drawOf[t]]});
+  }
+}
+
 template <class T>
 std::uint64_t bytesOf(const std::vector<T>& list) {
   return list.size() * sizeof(T);
@@ -75,20 +87,11 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
   Bvh own;
   if (kept == nullptr) own = buildTriangleBvh({flat.positions, flat.indices});
   const Bvh& triangles = kept ? kept->over(kRenderSpaceTree, {flat.positions, flat.indices}) : own;
-  appendTree(triangles, 0, result.nodes);
   std::future<WideBvh> widening;
   std::future<QuadBvh> quantizing;
   if (more.quad) quantizing = std::async(std::launch::async, quantize, std::cref(triangles));
   if (more.wide) widening = std::async(std::launch::async, widen, std::cref(triangles));
-  const std::vector<std::uint32_t> drawOf = drawOfTriangle(flat);
-  std::vector<std::uint32_t> flags;
-  for (std::uint32_t d = 0; d < flat.meshDrawCount; ++d) flags.push_back(primitiveFlags(flat, scene, settings, d));
-  result.primitives.reserve(triangles.order.size() + flat.shapeBounds.size());
-  for (const std::uint32_t t : triangles.order) {
-    const auto corner = [&](std::uint32_t k) { return flat.positions[flat.indices[3 * t + k]]; };
-    result.primitives.push_back({corner(0), t, corner(1), drawOf[t], corner(2), flags[drawOf[t]]});
-  }
-  appendShapes(flat, scene, settings, result);
+  fillPrimitives(flat, scene, settings, triangles.order, result.primitives);
   if (more.quad) {
     QuadBvh four = quantizing.get();
     result.quadNodes = std::move(four.nodes);
@@ -99,6 +102,12 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
     result.wideNodes = std::move(eight.nodes);
     result.wideDepth = eight.maxDepth;
   }
+  // The first tree's references need not move. Its nodes do not fit twice where it is large.
+  if (kept == nullptr)
+    result.nodes = std::move(own.nodes);
+  else
+    result.nodes = triangles.nodes;
+  appendShapes(flat, scene, settings, result);
   return result;
 }
 

@@ -10,30 +10,46 @@ using namespace shared;
 
 GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
                    const FlatBvh* bvh)
-    : scene_(scene), settings_(settings), flat_(std::move(flat)) {
-  const glm::dvec3 origin = renderOrigin(scene.cameras[static_cast<std::size_t>(settings.camera)]);
-  const MaterialRecords materials = makeMaterialRecords(scene);
+    : GpuScene(device, scene, settings, std::move(flat), bvh ? *bvh : FlatBvh{}, true) {}
+
+std::unique_ptr<GpuScene> GpuScene::forRays(const gpu::Device& device, const Scene& scene,
+                                            const RenderSettings& settings, FlatScene flat, FlatBvh bvh) {
+  return std::unique_ptr<GpuScene>(
+      new GpuScene(device, scene, settings, std::move(flat), std::move(bvh), /*keepsLists=*/false));
+}
+
+GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
+                   FlatBvh tree, bool keepsLists)
+    : scene_(scene),
+      settings_(settings),
+      flat_(std::move(flat)),
+      shapeRoot_(tree.shapeRoot),
+      wideDepth_(tree.wideDepth),
+      quadWaiting_(tree.quadWaiting) {
+  const auto moved = [&]<class T>(const char* name, std::vector<T>& list, std::uint32_t use) {
+    gpu::Buffer buffer = gpu::Buffer::of(device, name, list, use);
+    if (!keepsLists) std::vector<T>().swap(list);
+    return buffer;
+  };
+  constexpr std::uint32_t kRecords = gpu::useStorage | gpu::useUniformTexel;
   frame_ = gpu::Buffer(device, "frame constants", sizeof(FrameRecord), gpu::useUniform | gpu::useHostWrite);
-  materials_ = gpu::Buffer::of(device, "materials", materials.materials, gpu::useStorage | gpu::useUniformTexel);
-  lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, origin), gpu::useStorage | gpu::useUniformTexel);
-  draws_ = gpu::Buffer::of(device, "draws", flat_.draws, gpu::useStorage | gpu::useUniformTexel);
-  positions_ = gpu::Buffer::of(device, "positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
-  attributes_ = gpu::Buffer::of(device, "vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
-  indices_ = gpu::Buffer::of(device, "indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
-  shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, gpu::useStorage | gpu::useUniformTexel);
-  texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
-  const FlatBvh none;
-  const FlatBvh& tree = bvh ? *bvh : none;
-  shapeRoot_ = tree.shapeRoot;
-  wideDepth_ = tree.wideDepth;
-  quadWaiting_ = tree.quadWaiting;
-  quadNodes_ = gpu::Buffer::of(device, "quantised BVH nodes", tree.quadNodes, gpu::useUniformTexel);
-  nodes_ = gpu::Buffer::of(device, "BVH nodes", tree.nodes, gpu::useUniformTexel);
-  wideNodes_ = gpu::Buffer::of(device, "wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
-  primitives_ = gpu::Buffer::of(device, "BVH primitives", tree.primitives, gpu::useUniformTexel);
-  instances_ = gpu::Buffer::of(device, "instances", tree.instances, gpu::useUniformTexel);
-  instanceTriangles_ =
-      gpu::Buffer::of(device, "triangles of shared trees", tree.instanceTriangles, gpu::useUniformTexel);
+  lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, flat_.origin), kRecords);
+  draws_ = gpu::Buffer::of(device, "draws", flat_.draws, kRecords);
+  shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, kRecords);
+  {
+    const MaterialRecords materials = makeMaterialRecords(scene);
+    materials_ = gpu::Buffer::of(device, "materials", materials.materials, kRecords);
+    texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
+  }
+  positions_ = moved("positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
+  attributes_ = moved("vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
+  indices_ = moved("indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
+  wideNodes_ = moved("wide BVH nodes", tree.wideNodes, gpu::useUniformTexel);
+  primitives_ = moved("BVH primitives", tree.primitives, gpu::useUniformTexel);
+  nodes_ = moved("BVH nodes", tree.nodes, gpu::useUniformTexel);
+  quadNodes_ = moved("quantised BVH nodes", tree.quadNodes, gpu::useUniformTexel);
+  instances_ = moved("instances", tree.instances, gpu::useUniformTexel);
+  instanceTriangles_ = moved("triangles of shared trees", tree.instanceTriangles, gpu::useUniformTexel);
 }
 
 void GpuScene::setSample(const glm::vec2& sampleOffset) {

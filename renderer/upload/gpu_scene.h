@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ class GpuScene {
   // `bvh` may be null (raster).
   GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
            const FlatBvh* bvh);
+  // For rays: each list is let go of when the device has it, so that a large scene is never there twice. flat() then
+  // has no vertices and no triangles.
+  static std::unique_ptr<GpuScene> forRays(const gpu::Device& device, const Scene& scene,
+                                           const RenderSettings& settings, FlatScene flat, FlatBvh bvh);
 
   const FlatScene& flat() const { return flat_; }
   void setSample(const glm::vec2& sampleOffset);
@@ -33,6 +38,9 @@ class GpuScene {
   const gpu::Buffer& indices() const { return indices_; }
 
  private:
+  GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat, FlatBvh bvh,
+           bool keepsLists);
+
   const Scene& scene_;
   const RenderSettings& settings_;
   FlatScene flat_;

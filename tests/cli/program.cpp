@@ -1,6 +1,7 @@
 #include "cli/program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,8 +61,10 @@ Running::~Running() {
 }
 
 bool Running::ended() {
-  if (!reaped_) reaped_ = ::waitpid(process_, &status_, WNOHANG) == process_;
-  return reaped_;
+  rusage usage{};
+  if (reaped_ || ::wait4(process_, &status_, WNOHANG, &usage) != process_) return reaped_;
+  peakBytes_ = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  return reaped_ = true;
 }
 
 bool Running::waitForStderr(const std::string& text) {
@@ -86,7 +89,7 @@ Outcome Running::wait() {
     std::this_thread::sleep_for(kPoll);
   }
   const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
-  return {code, readText(out_), readText(err_)};
+  return {code, readText(out_), readText(err_), peakBytes_};
 }
 
 void CliTest::SetUp() {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,6 +16,7 @@ struct Outcome {
   int exitCode = -1;  // 128 + signal when a signal ended it
   std::string out;
   std::string err;
+  std::uint64_t peakBytes = 0;  // of memory at once
 };
 
 using Environment = std::map<std::string, std::string>;
@@ -38,6 +40,7 @@ class Running {
 
   pid_t process_ = -1;
   int status_ = 0;
+  std::uint64_t peakBytes_ = 0;
   bool reaped_ = false;
   std::filesystem::path out_, err_;
 };
