@@ -5,6 +5,7 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/large_pages.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -22,6 +23,7 @@ int fail(ExitCode code, const std::string& message) {
 
 int runCommandLine(int argc, char** argv) {
   try {
+    useLargePages();
     installInterruptHandler();
     CommandLine line;
     addRenderCommand(line);
