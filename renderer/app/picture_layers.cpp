@@ -89,8 +89,8 @@ struct Filler {
 }  // namespace
 
 PictureLayers::PictureLayers(std::uint32_t width, std::uint32_t rows, const std::vector<std::string>& aovs,
-                             const glm::dvec3& origin)
-    : image_(makeImage(width, rows)), origin_(origin) {
+                             const glm::dvec3& origin, bool shown)
+    : image_(shown ? makeShownImage(width, rows) : makeImage(width, rows)), origin_(origin) {
   for (const char* name : kAovNames) {  // their order in every file
     if (std::find(aovs.begin(), aovs.end(), name) == aovs.end()) continue;
     const AovLayer& aov = layerNamed(name);
@@ -103,12 +103,23 @@ PictureLayers::PictureLayers(std::uint32_t width, std::uint32_t rows, const std:
 }
 
 void PictureLayers::add(const ExposedPixels& pixels) {
+  if (!pixels.codes.empty()) return addCodes(pixels);
   static_assert(sizeof(glm::vec4) == 4 * sizeof(float));
   CL_CHECK_LE(pixels.first + pixels.picture.size(), image_.pixels());
   std::memcpy(image_.picture().samples.data() + 4 * pixels.first, pixels.picture.data(), pixels.picture.size_bytes());
   for (std::size_t i = 1; i < image_.layers.size(); ++i) {
     Layer& layer = image_.layers[i];
     std::visit(Filler{pixels.aovs, origin_, layer, pixels.first}, layerNamed(layer.name).source);
+  }
+}
+
+void PictureLayers::addCodes(const ExposedPixels& pixels) {
+  CL_CHECK_LE(3 * (pixels.first + pixels.codes.size()), image_.shownCodes.size());
+  std::uint8_t* out = image_.shownCodes.data() + 3 * pixels.first;
+  for (const std::uint32_t code : pixels.codes) {
+    *out++ = static_cast<std::uint8_t>(code);
+    *out++ = static_cast<std::uint8_t>(code >> 8);
+    *out++ = static_cast<std::uint8_t>(code >> 16);
   }
 }
 

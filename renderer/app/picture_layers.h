@@ -12,13 +12,15 @@ namespace crosslight {
 
 class PictureLayers {
  public:
-  // `origin`: world position of render space's zero.
-  PictureLayers(std::uint32_t width, std::uint32_t rows, const std::vector<std::string>& aovs,
-                const glm::dvec3& origin);
+  // `origin`: world position of render space's zero. `shown`: the film gives codes, not floats.
+  PictureLayers(std::uint32_t width, std::uint32_t rows, const std::vector<std::string>& aovs, const glm::dvec3& origin,
+                bool shown = false);
   void add(const ExposedPixels& pixels);
   Image take() { return std::move(image_); }
 
  private:
+  void addCodes(const ExposedPixels& pixels);
+
   Image image_;
   glm::dvec3 origin_;
 };

@@ -158,7 +158,7 @@ class FrameRun {
                           fmt::format("{}frame {}/{} ", context_.task, index + 1, work_.frames.size())};
     // One frame is drawn while the one before is written.
     const std::uint64_t besideBytes = fileBytesPerPixel(work_) + layerBytesPerPixel(settings.aovs);
-    RenderResult result = drawWithProgress(work_, context, {scene, settings, {}, besideBytes, true});
+    RenderResult result = drawWithProgress(work_, context, {scene, settings, {}, besideBytes, true, shownBy(work_)});
     const gpu::DeviceInfo& device = context_.device.get().info();
     describeInMetadata(result, settings, device);
     for (const auto& [phase, ms] : result.report.timesMs) add(phase, ms);

@@ -107,7 +107,13 @@ bool same(const std::vector<Band>& a, const std::vector<Band>& b) {
 
 bool same(const FilmSettings& a, const FilmSettings& b) {
   return a.width == b.width && a.height == b.height && a.offsets == b.offsets && a.wantAovs == b.wantAovs &&
-         same(a.rows, b.rows);
+         same(a.rows, b.rows) && a.shownBy == b.shownBy;
+}
+
+// What is not finite is told apart by floats only: whoever allows it wants the codec's warning too.
+std::optional<DisplayTransform> codesOf(const RenderRequest& request, const Plan& plan) {
+  const bool can = canDrawCodes(plan, request.settings) && !request.settings.allowNonfinite;
+  return can && request.shownBy && hasCodeTable(*request.shownBy) ? request.shownBy : std::nullopt;
 }
 
 glm::dvec3 originOf(const RenderRequest& request) {
@@ -285,14 +291,14 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.tree = placed.tree;
   Film& film = impl_->filmFor(
       {settings.width, settings.height, samplePattern(settings.spp, shapeOf(settings.filter), settings.seed),
-       !settings.aovs.empty(), request.rows},
+       !settings.aovs.empty(), request.rows, codesOf(request, plan)},
       report);
   phases.lap("upload");
   const std::unique_ptr<Technique> technique = impl_->techniqueFor(plan, placed, film.buffers(), kernels);
   phases.lap("pipelines");
   Tally tally;
   const auto rows = static_cast<std::uint32_t>(film.exposedPixels() / settings.width);
-  PictureLayers layers(settings.width, rows, settings.aovs, placed.origin);
+  PictureLayers layers(settings.width, rows, settings.aovs, placed.origin, film.buffers().wantsCodes());
   const double layersMs = phases.sinceLapMs();
   const FilmResult exposed = film.expose(
       *technique, tally, [&layers](const ExposedPixels& pixels) { layers.add(pixels); }, progress);

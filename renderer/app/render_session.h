@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/render_job.h"
@@ -16,6 +17,8 @@ struct RenderRequest {
   std::vector<Band> rows = {};          // the image holds these rows only; empty: all
   std::uint64_t fileBytesPerPixel = 0;  // of the image's file while it is made, for the estimate of memory
   bool isFrame = false;                 // others like it follow: trees are kept, and moved where triangles move
+  // The image is only shown, through this transform: then it may hold shownCodes instead of samples, the same codes.
+  std::optional<DisplayTransform> shownBy = {};
 };
 
 class RenderSession {

@@ -74,7 +74,8 @@ Json runPicture(const RenderWork& work, RenderContext& context) {
   gpu::Device& device = context.device.get();
   append(context.device.takeTimes(), timesMs);
   const std::vector<Band> rows = work.part ? rowsOfPart(*work.part, settings.height) : std::vector<Band>();
-  RenderResult result = drawWithProgress(work, context, {scene, settings, rows, fileBytesPerPixel(work)});
+  RenderResult result =
+      drawWithProgress(work, context, {scene, settings, rows, fileBytesPerPixel(work), false, shownBy(work)});
   append(std::move(result.report.timesMs), timesMs);
   throwIfInterrupted();
 
@@ -133,6 +134,12 @@ std::uint64_t fileBytesPerPixel(const RenderWork& work) {
       return 2 * kColors;
   }
   return 0;
+}
+
+std::optional<DisplayTransform> shownBy(const RenderWork& work) {
+  const std::string& output = work.options.output;
+  const bool shown = !work.part && (isVideo(output) || imageFormatOf(output) == ImageFormat::png);
+  return shown ? std::optional(work.display) : std::nullopt;
 }
 
 void append(Times&& more, Times& timesMs) { timesMs.insert(timesMs.end(), more.begin(), more.end()); }

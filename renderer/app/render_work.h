@@ -42,6 +42,7 @@ Json runWork(const RenderWork& work, RenderContext& context);
 // The steps, for those who loop over them themselves.
 RenderResult drawWithProgress(const RenderWork& work, RenderContext& context, const RenderRequest& request);
 std::uint64_t fileBytesPerPixel(const RenderWork& work);
+std::optional<DisplayTransform> shownBy(const RenderWork& work);  // the pictures end as 8-bit codes
 void append(Times&& more, Times& timesMs);
 Json runFrames(const RenderWork& work, RenderContext& context);  // render_frames.cpp
 

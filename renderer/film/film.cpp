@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/time.h"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::uint32_t kGroupSize = 64;  // local_size_x of the film's kernels
 constexpr std::uint32_t kTileRows = 8;
-// Read back at once: 1 MiB of sums, about half of a core's second-level cache.
-constexpr std::size_t kSlicePixels = std::size_t{1} << 15;
 
 std::vector<gpu::Binding> filmBindings() {
   using enum gpu::BindingType;
@@ -90,10 +89,15 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
       set_(device, layout_) {
   const std::uint64_t pixels = std::uint64_t{bandRows_} * settings.width;
   const std::uint64_t aovs = settings.wantAovs ? pixels : 1;
-  buffers_.sampleColor = gpu::Buffer(device, "sample", pixels * sizeof(glm::vec4), gpu::useStorage);
+  if (settings.shownBy) {
+    CL_CHECK(single_ && !settings.wantAovs && hasCodeTable(*settings.shownBy));
+    buffers_.codeTable = gpu::Buffer::of(device, "display codes", displayCodeTable(), gpu::useUniformTexel);
+    buffers_.displayGain = gainOf(*settings.shownBy);
+  }
+  buffers_.sampleColor = gpu::Buffer(device, "sample", pixels * sampleBytes(), gpu::useStorage);
   buffers_.aovs = gpu::Buffer(device, "AOV records", aovs * sizeof(AovRecord), gpu::useStorage | gpu::useReadback);
   const std::uint64_t filmBytes =
-      readsSample_ ? sizeof(FilmPixel) : pixels * (single_ ? sizeof(glm::vec4) : sizeof(FilmPixel));
+      readsSample_ ? sizeof(FilmPixel) : pixels * (single_ ? sampleBytes() : sizeof(FilmPixel));
   buffers_.film = gpu::Buffer(device, "film", filmBytes, gpu::useStorage | gpu::useReadback);
   buffers_.parts =
       gpu::Buffer(device, "film parts", (single_ ? 1 : aovs) * sizeof(FilmParts), gpu::useStorage | gpu::useReadback);
@@ -113,6 +117,8 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
                                        {{kSpecVariant, settings.wantAovs ? kVariantFilmParts : 0u}});
   resetCounters();
 }
+
+std::uint64_t Film::sampleBytes() const { return settings_.shownBy ? sizeof(std::uint32_t) : sizeof(glm::vec4); }
 
 void Film::resetCounters() {
   const std::vector<std::uint32_t> zeros(kCounterCount, 0u);
@@ -216,77 +222,9 @@ void Film::fetchSample(const Band& band) {
   commands_.begin();
   commands_.barrier();
   commands_.copy(buffers_.sampleColor, 0, buffers_.film, 0,
-                 std::uint64_t{band.rowCount} * settings_.width * sizeof(glm::vec4));
+                 std::uint64_t{band.rowCount} * settings_.width * sampleBytes());
   commands_.barrier();
   commands_.submitAndWait();
-}
-
-// In slices that stay in the cache between being read, divided and handed over.
-void Film::readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result) {
-  const std::size_t count = std::size_t{band.rowCount} * settings_.width;
-  std::vector<glm::vec4> picture(std::min(count, kSlicePixels));
-  std::vector<AovRecord> aovs(settings_.wantAovs ? picture.size() : 0);
-  for (std::size_t first = 0; first < count; first += kSlicePixels) {
-    const std::size_t length = std::min(kSlicePixels, count - first);
-    const std::span<glm::vec4> slice = std::span(picture).first(length);
-    if (single_) {
-      readSample(first, slice, band.firstRow * settings_.width + static_cast<std::uint32_t>(first), result);
-    } else {
-      readMean(first, slice);
-    }
-    ExposedPixels pixels{firstPixel + first, slice};
-    if (settings_.wantAovs) {
-      readAovs(first, std::span(aovs).first(length));
-      pixels.aovs = std::span(aovs).first(length);
-    }
-    sink(pixels);
-  }
-}
-
-// As the kernel and the mean would have it: zeros are positive, and pixels with a value that is not finite are counted.
-void Film::readSample(std::size_t first, std::span<glm::vec4> picture, std::uint32_t firstPixel, FilmResult& result) {
-  const gpu::Buffer& from = readsSample_ ? buffers_.sampleColor : buffers_.film;
-  from.read(first * sizeof(glm::vec4), std::as_writable_bytes(picture));
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    glm::vec4& p = picture[i];
-    p += 0.0f;
-    const float sum = p.x * 0.0f + p.y * 0.0f + p.z * 0.0f + p.w * 0.0f;  // NaN unless all four are finite
-    if (sum == 0.0f) continue;
-    if (result.nonfinite++ == 0) result.firstNonfinitePixel = firstPixel + static_cast<std::uint32_t>(i);
-  }
-}
-
-void Film::readMean(std::size_t first, std::span<glm::vec4> picture) {
-  const auto samples = static_cast<double>(settings_.offsets.size());
-  pixels_.resize(picture.size());
-  buffers_.film.read(first * sizeof(FilmPixel), std::as_writable_bytes(std::span(pixels_)));
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    for (int c = 0; c < 4; ++c) {
-      const double sum = static_cast<double>(pixels_[i].sum[c]) - static_cast<double>(pixels_[i].compensation[c]);
-      picture[i][c] = static_cast<float>(sum / samples);
-    }
-  }
-}
-
-void Film::readAovs(std::size_t first, std::span<AovRecord> aovs) {
-  buffers_.aovs.read(first * sizeof(AovRecord), std::as_writable_bytes(aovs));
-  if (single_) return;  // its parts are their own means
-  parts_.resize(aovs.size());
-  buffers_.parts.read(first * sizeof(FilmParts), std::as_writable_bytes(std::span(parts_)));
-  const auto scale = static_cast<float>(1.0 / static_cast<double>(settings_.offsets.size()));
-  for (std::size_t i = 0; i < aovs.size(); ++i) {
-    aovs[i].albedo = parts_[i].albedo * scale;
-    aovs[i].ambient = parts_[i].ambient * scale;
-    aovs[i].diffuse = parts_[i].diffuse * scale;
-    aovs[i].specular = parts_[i].specular * scale;
-    aovs[i].emission = parts_[i].emission * scale;
-  }
-}
-
-void Film::readCounters(FilmResult& result) {
-  const std::vector<std::uint32_t> counters = buffers_.counters.readAll<std::uint32_t>();
-  result.nonfinite = counters[kCounterNonfinite];
-  result.firstNonfinitePixel = 0xffffffffu - counters[kCounterFirstNonfinite];
 }
 
 }  // namespace crosslight

@@ -6,13 +6,14 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bindings.h"
 #include "gpu/commands.h"
-#include "image/image.h"
+#include "image/image_io.h"
 #include "structs.h"
 
 namespace crosslight {
@@ -26,6 +27,10 @@ struct Band {
 // Per-pixel buffers of the largest band. Those that nobody needs hold one dummy record.
 struct FilmBuffers {
   gpu::Buffer sampleColor, aovs, film, parts, counters;
+  // Where the film wants codes (FilmSettings::shownBy): displayCodeTable() and gainOf(); else none.
+  gpu::Buffer codeTable;
+  float displayGain = 1;
+  bool wantsCodes() const { return bool(codeTable); }
 };
 
 // Adds up milliseconds and counts by name over many submissions, in the order of first use.
@@ -46,7 +51,9 @@ struct SampleRequest {
   bool aovs = false;
 };
 
-// Makes one sample of a band: writes FilmBuffers::sampleColor (premultiplied RGBA, linear) and, if asked, aovs.
+// Makes one sample of a band: writes FilmBuffers::sampleColor (premultiplied RGBA, linear) and, if asked, aovs. Where
+// the film wants codes, a pixel of sampleColor is a word: red, green and blue as displayCodeTable() says from the
+// lowest byte on, shared::kFiniteCode above.
 class Technique {
  public:
   virtual ~Technique() = default;
@@ -62,12 +69,15 @@ struct FilmSettings {
   std::vector<glm::vec2> offsets;  // of the samples within the pixel
   bool wantAovs = false;
   std::vector<Band> rows = {};  // those that are exposed, ascending; empty: all
+  // Only the codes of this transform are wanted, which hasCodeTable(): one sample, no AOVs, and a technique that can.
+  std::optional<DisplayTransform> shownBy = {};
 };
 
 // Finished pixels in a row. The pixels of the exposed rows count from 0 on, in their order, whatever lies between.
 struct ExposedPixels {
   std::size_t first = 0;
   std::span<const glm::vec4> picture;            // premultiplied mean of the samples
+  std::span<const std::uint32_t> codes = {};     // instead of `picture`, where codes are wanted
   std::span<const shared::AovRecord> aovs = {};  // at pixel centers; averaged parts replaced by their means
 };
 using PixelSink = std::function<void(const ExposedPixels&)>;
@@ -89,6 +99,9 @@ class Film {
   std::size_t exposedPixels() const;
 
  private:
+  // Read back at once: 1 MiB of sums, about half of a core's second-level cache.
+  static constexpr std::size_t kSlicePixels = std::size_t{1} << 15;
+
   std::vector<Band> bands() const;
   void resetCounters();
   void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step);
@@ -96,10 +109,12 @@ class Film {
   void accumulate(const Band& band, bool first, Tally& tally);
   void fetchSample(const Band& band);
   void readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result);
+  void readBandCodes(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result);
   void readMean(std::size_t first, std::span<glm::vec4> picture);
   void readSample(std::size_t first, std::span<glm::vec4> picture, std::uint32_t firstPixel, FilmResult& result);
   void readAovs(std::size_t first, std::span<shared::AovRecord> aovs);
   void readCounters(FilmResult& result);
+  std::uint64_t sampleBytes() const;  // of one pixel of sampleColor
 
   FilmSettings settings_;
   std::uint32_t bandRows_ = 0;

@@ -77,10 +77,16 @@ void fillSet(BindingSetImpl& set) {
   set.isSet.assign(set.layout->bindings.size(), false);
 }
 
-// Its size was checked against maxTexelBufferElements when the buffer was made: all texels here have 16 bytes.
+vk::Format texelFormat(BindingType type) {
+  if (type == BindingType::texelBufferUint1) return vk::Format::eR32Uint;
+  return type == BindingType::texelBufferFloat4 ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR32G32B32A32Uint;
+}
+
+// Buffers of 16-byte texels were checked against maxTexelBufferElements when they were made.
 vk::raii::BufferView texelView(const BufferImpl& buffer, BindingType type) {
-  const vk::Format format =
-      type == BindingType::texelBufferFloat4 ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR32G32B32A32Uint;
+  const vk::Format format = texelFormat(type);
+  if (type == BindingType::texelBufferUint1)
+    CL_CHECK_LE(buffer.capacityBytes / 4, std::uint64_t{buffer.device->info.maxTexelBufferElements});
   return {buffer.device->device, vk::BufferViewCreateInfo({}, *buffer.buffer, format, 0, buffer.capacityBytes)};
 }
 

@@ -23,6 +23,7 @@ struct CommandsImpl {
   vk::Extent2D targetExtent = {};
   std::uint32_t targetSamples = 1;
   bool targetHasColor = false, targetHasDepth = false;
+  ImageFormat targetColorFormat = ImageFormat::rgba32f;
   double submitToIdleMs = 0;
 };
 

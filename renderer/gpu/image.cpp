@@ -11,8 +11,6 @@
 namespace crosslight::gpu {
 namespace {
 
-constexpr std::uint64_t kPixelBytes = 16;  // RGBA32F
-
 vk::ImageUsageFlags usageOf(ImageFormat format) {
   using Usage = vk::ImageUsageFlagBits;
   if (format == ImageFormat::depth32f) return Usage::eDepthStencilAttachment;
@@ -62,10 +60,16 @@ void fillImage(ImageImpl& image, const std::string& what) {
   makeView(image);
 }
 
-bool canDrawLinear(const DeviceImpl& device, const vk::ImageCreateInfo& info) {
+// Integers are never blended.
+vk::FormatFeatureFlags needsOf(vk::Format format) {
   using Flag = vk::FormatFeatureFlagBits;
-  constexpr auto kNeeds = Flag::eColorAttachment | Flag::eColorAttachmentBlend;
-  if ((device.physical.getFormatProperties(info.format).linearTilingFeatures & kNeeds) != kNeeds) return false;
+  if (format == vk::Format::eR32Uint) return Flag::eColorAttachment;
+  return Flag::eColorAttachment | Flag::eColorAttachmentBlend;
+}
+
+bool canDrawLinear(const DeviceImpl& device, const vk::ImageCreateInfo& info) {
+  const vk::FormatFeatureFlags needs = needsOf(info.format);
+  if ((device.physical.getFormatProperties(info.format).linearTilingFeatures & needs) != needs) return false;
   try {
     const auto most = device.physical.getImageFormatProperties(info.format, info.imageType, info.tiling, info.usage);
     return info.extent.width <= most.maxExtent.width && info.extent.height <= most.maxExtent.height;
@@ -79,14 +83,24 @@ bool fitsOver(const ImageImpl& image, const BufferImpl& buffer) {
   const vk::MemoryRequirements needs = image.image.getMemoryRequirements();
   const vk::SubresourceLayout layout = image.image.getSubresourceLayout({vk::ImageAspectFlagBits::eColor, 0, 0});
   return (needs.memoryTypeBits >> buffer.memory.type() & 1u) != 0 && needs.size <= buffer.memory.sizeBytes() &&
-         layout.offset == 0 && layout.rowPitch == kPixelBytes * image.extent.width;
+         layout.offset == 0 && layout.rowPitch == std::uint64_t{pixelBytesOf(image.format)} * image.extent.width;
 }
 
 }  // namespace
 
 vk::Format formatOf(ImageFormat format) {
-  return format == ImageFormat::depth32f ? vk::Format::eD32Sfloat : vk::Format::eR32G32B32A32Sfloat;
+  switch (format) {
+    case ImageFormat::rgba32f:
+      return vk::Format::eR32G32B32A32Sfloat;
+    case ImageFormat::r32ui:
+      return vk::Format::eR32Uint;
+    case ImageFormat::depth32f:
+      return vk::Format::eD32Sfloat;
+  }
+  throw InternalError("broken invariant: unknown image format");
 }
+
+std::uint32_t pixelBytesOf(ImageFormat format) { return format == ImageFormat::rgba32f ? 16 : 4; }
 
 vk::SampleCountFlagBits sampleFlag(std::uint32_t samples) {
   // Vulkan's flag of a count is the count itself.
@@ -109,13 +123,13 @@ Image::Image(const Device& device, std::string name, ImageFormat format, std::ui
   guarded("making " + what, [&] { fillImage(*impl_, what); });
 }
 
-Image Image::over(const Device& device, std::string name, const Buffer& buffer, std::uint32_t width,
+Image Image::over(const Device& device, std::string name, ImageFormat format, const Buffer& buffer, std::uint32_t width,
                   std::uint32_t height) {
   Image image;
   if (!device.info().isSoftware) return image;
-  CL_CHECK_LE(kPixelBytes * width * height, buffer.sizeBytes());
+  CL_CHECK_LE(std::uint64_t{pixelBytesOf(format)} * width * height, buffer.sizeBytes());
   const std::string what = fmt::format("image '{}'", name);
-  Owned<ImageImpl> impl(new ImageImpl{&device.impl(), std::move(name), ImageFormat::rgba32f, {width, height}, 1, true});
+  Owned<ImageImpl> impl(new ImageImpl{&device.impl(), std::move(name), format, {width, height}, 1, true});
   guarded("making " + what, [&] {
     const vk::ImageCreateInfo info = imageInfo(*impl).setTiling(vk::ImageTiling::eLinear);
     if (!canDrawLinear(*impl->device, info)) return;

@@ -156,6 +156,7 @@ struct PipelineImpl {
   SharedLayout layout;
   vk::PipelineBindPoint point;
   bool drawsColor = false, drawsDepth = false;
+  ImageFormat colorFormat = ImageFormat::rgba32f;
   std::uint32_t samples = 1;
   std::string key = {};  // what it is made of, in words
   vk::raii::Pipeline pipeline{nullptr};
@@ -169,6 +170,7 @@ inline constexpr vk::ShaderStageFlags kAllStages =
     vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 
 vk::Format formatOf(ImageFormat format);
+std::uint32_t pixelBytesOf(ImageFormat format);
 vk::SampleCountFlagBits sampleFlag(std::uint32_t samples);
 void checkSamples(const DeviceImpl& device, const std::string& what, std::uint32_t samples);  // DeviceError
 

@@ -56,7 +56,7 @@ class Buffer {
   Owned<BufferImpl> impl_;
 };
 
-enum class ImageFormat { rgba32f, depth32f };
+enum class ImageFormat { rgba32f, r32ui, depth32f };
 
 struct ImageImpl;
 // A 2D render target: color (also copy source) or depth. `samples` is 1, 2, 4 or 8 and one of DeviceInfo::msaaCounts.
@@ -69,8 +69,8 @@ class Image {
   // A color target of one sample whose pixels are the buffer's contents, row after row from its beginning: what is
   // drawn needs no copy. Empty where the device cannot lay it out so; the buffer must outlive it. Software devices
   // only: hardware draws slowly into such memory.
-  static Image over(const Device& device, std::string name, const Buffer& buffer, std::uint32_t width,
-                    std::uint32_t height);
+  static Image over(const Device& device, std::string name, ImageFormat format, const Buffer& buffer,
+                    std::uint32_t width, std::uint32_t height);
 
   explicit operator bool() const { return impl_ != nullptr; }
   std::uint32_t width() const;

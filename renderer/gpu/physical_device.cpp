@@ -143,6 +143,7 @@ void refuseFormats(const vk::raii::PhysicalDevice& physical, std::vector<std::st
   need(color.optimalTilingFeatures, Flag::eColorAttachmentBlend, "blending into RGBA32F color attachments");
   need(depth.optimalTilingFeatures, Flag::eDepthStencilAttachment, "D32F depth attachments");
   need(color.bufferFeatures, Flag::eUniformTexelBuffer, "RGBA32F uniform texel buffers");
+  // Vulkan promises R32_UINT as an attachment and as texels.
   need(integer.bufferFeatures, Flag::eUniformTexelBuffer, "RGBA32_UINT uniform texel buffers");
 }
 

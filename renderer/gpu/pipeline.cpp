@@ -94,7 +94,7 @@ struct FixedState {
   vk::PipelineColorBlendAttachmentState target;
   vk::PipelineColorBlendStateCreateInfo blend;
   vk::PipelineDynamicStateCreateInfo dynamic{{}, kDynamicStates};
-  vk::Format colorFormat = formatOf(ImageFormat::rgba32f);
+  vk::Format colorFormat = vk::Format::eUndefined;
   vk::PipelineRenderingCreateInfo rendering;
 
  private:
@@ -140,6 +140,8 @@ void FixedState::describeTargets(const GraphicsState& state) {
         .setDstAlphaBlendFactor(vk::BlendFactor::eOneMinusSrcAlpha);
   }
   if (state.colorTarget) {
+    CL_CHECK(state.colorFormat == ImageFormat::rgba32f || state.blend == Blend::off);
+    colorFormat = formatOf(state.colorFormat);
     blend.setAttachments(target);
     rendering.setColorAttachmentFormats(colorFormat);
   }
@@ -201,9 +203,10 @@ std::string keyOf(const BindingLayoutImpl& layout, const GraphicsState& s) {
   for (const VertexAttribute& a : s.attributes) {
     key += fmt::format(" a{}:{}:{}:{}", a.location, a.buffer, a.offset, static_cast<int>(a.format));
   }
-  return key + fmt::format(" {:d}{:d} {} {} {:d} {} {} {:a} {:a}", s.colorTarget, s.depthTarget, s.samples,
-                           static_cast<int>(s.depthTest), s.depthWrite, static_cast<int>(s.blend),
-                           static_cast<int>(s.polygonMode), s.depthBiasConstant, s.depthBiasSlope);
+  return key + fmt::format(" {:d}:{}{:d} {} {} {:d} {} {} {:a} {:a}", s.colorTarget, static_cast<int>(s.colorFormat),
+                           s.depthTarget, s.samples, static_cast<int>(s.depthTest), s.depthWrite,
+                           static_cast<int>(s.blend), static_cast<int>(s.polygonMode), s.depthBiasConstant,
+                           s.depthBiasSlope);
 }
 
 }  // namespace
@@ -224,6 +227,7 @@ ComputePipeline::ComputePipeline(const Device& device, const BindingLayout& layo
 GraphicsPipeline::GraphicsPipeline(const Device& device, const BindingLayout& layout, const GraphicsState& state)
     : impl_(new PipelineImpl{&device.impl(), layout.shared(), vk::PipelineBindPoint::eGraphics}) {
   impl_->drawsColor = state.colorTarget;
+  impl_->colorFormat = state.colorFormat;
   impl_->drawsDepth = state.depthTarget;
   impl_->samples = state.samples;
   const std::string name = fmt::format("{} {}", state.vertex.name, state.fragment.name);

@@ -29,7 +29,14 @@ struct Constant {
 using Constants = std::vector<Constant>;
 
 // A uniformWindow shows the shaders one record of a buffer of many; which, is said when the set is bound.
-enum class BindingType { storageBuffer, uniformBuffer, texelBufferFloat4, texelBufferUint4, uniformWindow };
+enum class BindingType {
+  storageBuffer,
+  uniformBuffer,
+  texelBufferFloat4,
+  texelBufferUint4,
+  texelBufferUint1,
+  uniformWindow
+};
 struct Binding {
   std::uint32_t slot;
   BindingType type;
@@ -50,7 +57,7 @@ class BindingLayout {
 
 struct BindingSetImpl;
 // Buffers bound to the slots of a layout. Every slot must be set before use (checked at bind); the buffers must
-// outlive the set. Buffers are bound whole; texels are R32G32B32A32_SFLOAT or R32G32B32A32_UINT.
+// outlive the set. Buffers are bound whole; texels are R32G32B32A32_SFLOAT, R32G32B32A32_UINT or R32_UINT.
 class BindingSet {
  public:
   BindingSet() = default;
@@ -95,8 +102,9 @@ struct GraphicsState {
   Constants constants;  // both stages
   std::vector<VertexBufferLayout> buffers;
   std::vector<VertexAttribute> attributes;
-  bool colorTarget = true;  // one RGBA32F target, or none
-  bool depthTarget = true;  // D32F
+  bool colorTarget = true;                         // one, or none
+  ImageFormat colorFormat = ImageFormat::rgba32f;  // r32ui cannot blend
+  bool depthTarget = true;                         // D32F
   std::uint32_t samples = 1;
   DepthTest depthTest = DepthTest::greater;
   bool depthWrite = true;

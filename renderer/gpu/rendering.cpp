@@ -49,6 +49,8 @@ void checkRows(const vk::Extent2D& extent, std::uint32_t firstRow, std::uint32_t
 void checkTargets(const RenderTargets& targets) {
   CL_CHECK(targets.color != nullptr || targets.depth != nullptr);
   CL_CHECK(targets.resolve == nullptr || targets.color != nullptr);
+  CL_CHECK(targets.color == nullptr || targets.colorBefore != ColorBefore::clear ||
+           targets.color->impl().format == ImageFormat::rgba32f);  // clearValue is of floats
   const ImageImpl& main = targets.color != nullptr ? targets.color->impl() : targets.depth->impl();
   for (const Image* image : {targets.color, targets.resolve, targets.depth}) {
     if (image == nullptr) continue;
@@ -121,6 +123,7 @@ void checkCanDraw(const CommandsImpl& impl) {
   CL_CHECK(impl.pipeline != nullptr && impl.pipeline->point == vk::PipelineBindPoint::eGraphics);
   CL_CHECK_EQ(impl.pipeline->samples, impl.targetSamples);
   CL_CHECK_EQ(impl.pipeline->drawsColor, impl.targetHasColor);
+  CL_CHECK(!impl.targetHasColor || impl.pipeline->colorFormat == impl.targetColorFormat);
   CL_CHECK_EQ(impl.pipeline->drawsDepth, impl.targetHasDepth);
 }
 
@@ -146,6 +149,7 @@ void Commands::beginRendering(const RenderTargets& targets) {
   impl_->targetExtent = main.extent;
   impl_->targetSamples = main.samples;
   impl_->targetHasColor = targets.color != nullptr;
+  if (targets.color != nullptr) impl_->targetColorFormat = targets.color->impl().format;
   impl_->targetHasDepth = targets.depth != nullptr;
 }
 
@@ -204,9 +208,9 @@ void Commands::copyToBuffer(const Image& from, std::uint32_t firstRow, std::uint
   CL_CHECK(impl_->recording && !impl_->drawing);
   ImageImpl& image = from.impl();
   CL_CHECK_EQ(image.samples, 1u);
-  CL_CHECK(image.format == ImageFormat::rgba32f);
+  CL_CHECK(image.format != ImageFormat::depth32f);
   checkRows(image.extent, firstRow, rowCount);
-  checkRange(to.impl(), toOffset, std::uint64_t{16} * image.extent.width * rowCount);
+  checkRange(to.impl(), toOffset, std::uint64_t{pixelBytesOf(image.format)} * image.extent.width * rowCount);
   if (rowCount == 0) return;
   moveTo(*impl_, image, vk::ImageLayout::eTransferSrcOptimal, true);
   const auto region = vk::BufferImageCopy()

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "image/display_rows.h"
@@ -58,6 +59,16 @@ struct CodeTable {
     }
   }
 
+  std::vector<std::uint32_t> words() const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t b = 0; b < codeFirst.size(); ++b) {
+      const auto next = std::bit_cast<std::uint32_t>(threshold[std::size_t{codeFirst[b]} + 1]);
+      const std::uint32_t none = 1u << kShift;  // above all lower bits
+      all.push_back(std::uint32_t{codeFirst[b]} << 17 | (next >> kShift == b ? next & (none - 1) : none));
+    }
+    return all;
+  }
+
   // For 0 <= x <= 1.
   std::uint8_t operator()(float x) const {
     const std::size_t code = codeFirst[std::bit_cast<std::uint32_t>(x) >> kShift];
@@ -96,6 +107,12 @@ float reinhard(float x) { return x > 0 ? x / (1 + x) : 0.0f; }
 
 }  // namespace
 
+bool hasCodeTable(const DisplayTransform& display) {
+  return !display.withAlpha && (display.toneMap == ToneMap::none || display.toneMap == ToneMap::clamp);
+}
+std::vector<std::uint32_t> displayCodeTable() { return codeTable().words(); }
+float gainOf(const DisplayTransform& display) { return std::exp2(display.exposureStops); }
+
 std::uint8_t srgbCodeFromLinear(float linear) { return codeTable()(clamp01(linear)); }
 
 Rgb applyToneMap(Rgb linear, ToneMap toneMap) {
@@ -113,11 +130,13 @@ Rgb applyToneMap(Rgb linear, ToneMap toneMap) {
 }
 
 DisplayRows::DisplayRows(const Image& image, const DisplayTransform& display)
-    : read_(image, image.picture()),
+    : shownCodes_(image.shownCodes),
       width_(image.width),
-      gain_(std::exp2(display.exposureStops)),
+      gain_(gainOf(display)),
       toneMap_(display.toneMap),
-      withAlpha_(display.withAlpha) {}
+      withAlpha_(display.withAlpha) {
+  if (shownCodes_.empty()) read_.emplace(image, image.picture());
+}
 
 namespace {
 
@@ -133,14 +152,21 @@ void replaceNonFinite(float (&p)[4], int channels, std::size_t& count) {
 }  // namespace
 
 std::size_t DisplayRows::operator()(std::uint32_t row, std::uint8_t* codes) const {
+  const std::size_t first = std::size_t{row} * width_;
+  if (shownCodes_.empty()) return showRow(first, codes);
+  const std::size_t count = std::size_t{3} * width_;
+  std::memcpy(codes, shownCodes_.data() + 3 * first, count);
+  return 0;
+}
+
+std::size_t DisplayRows::showRow(std::size_t first, std::uint8_t* codes) const {
   static constexpr float kLargest = std::numeric_limits<float>::max();
   const CodeTable& table = codeTable();
   const bool maps = toneMap_ == ToneMap::reinhard || toneMap_ == ToneMap::neutral;
-  const std::size_t first = std::size_t{row} * width_;
   std::size_t nonFinite = 0;
   for (std::size_t i = first; i < first + width_; ++i) {
     float p[4];
-    read_(i, p);
+    (*read_)(i, p);
     // A sum that is finite has finite terms.
     if (!std::isfinite(p[0] + p[1] + p[2] + p[3])) replaceNonFinite(p, withAlpha_ ? 4 : 3, nonFinite);
     Rgb shown{p[0] * gain_, p[1] * gain_, p[2] * gain_};

@@ -34,6 +34,16 @@ Image makeImage(std::uint32_t width, std::uint32_t height) {
   return image;
 }
 
+Image makeShownImage(std::uint32_t width, std::uint32_t height) {
+  Image image;
+  image.width = width;
+  image.height = height;
+  Layer& picture = image.layers.emplace_back();
+  picture.channelNames = {"R", "G", "B"};
+  image.shownCodes.resize(3 * image.pixels());
+  return image;
+}
+
 Layer& addLayer(Image& image, const std::string& name, const std::vector<std::string>& channelNames) {
   Layer& layer = image.layers.emplace_back();
   layer.name = name;

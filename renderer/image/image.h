@@ -26,7 +26,10 @@ struct Layer {
 struct Image {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<Layer> layers;                    // layers[0] is the picture
+  std::vector<Layer> layers;  // layers[0] is the picture
+  // Of a picture that was only asked for as a display shows it: its 8-bit sRGB codes, three per pixel. The picture's
+  // layer has no samples then.
+  std::vector<std::uint8_t> shownCodes;
   std::map<std::string, std::string> metadata;  // written to EXR attributes and PNG tEXt where the format has them
 
   const Layer* find(const std::string& name) const;
@@ -40,6 +43,9 @@ inline constexpr std::uint32_t kMaxImageSide = 65536;
 
 // width x height RGBA picture, all zero.
 Image makeImage(std::uint32_t width, std::uint32_t height);
+
+// RGB picture of shownCodes, all zero.
+Image makeShownImage(std::uint32_t width, std::uint32_t height);
 
 // Adds an empty (all zero) layer and returns it; the reference holds until the next one is added.
 Layer& addLayer(Image& image, const std::string& name, const std::vector<std::string>& channelNames);

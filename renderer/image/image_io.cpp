@@ -42,6 +42,10 @@ namespace {
 
 void checkLayers(const Image& image) {
   CL_CHECK(!image.layers.empty());
+  if (!image.shownCodes.empty()) {
+    CL_CHECK_EQ(image.shownCodes.size(), 3 * image.pixels());
+    return;
+  }
   for (const Layer& layer : image.layers) {
     const std::size_t values = image.pixels() * layer.channels();
     CL_CHECK_EQ(layer.samples.size(), layer.isInteger ? 0 : values);
@@ -68,7 +72,8 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Dis
   const std::string where = path.string();
   codec::checkSides(image.width, image.height, where);
   checkLayers(image);
-  const float gain = std::exp2(display.exposureStops);
+  CL_CHECK(image.shownCodes.empty() || format == ImageFormat::png);
+  const float gain = gainOf(display);
   const codec::Bytes file = [&] {
     switch (format) {
       case ImageFormat::png:

@@ -17,13 +17,16 @@ struct DisplayTransform {
   ToneMap toneMap = ToneMap::clamp;
   float exposureStops = 0.0f;  // the picture is multiplied by 2^stops before tone mapping
   bool withAlpha = false;      // PNG: write RGBA instead of RGB
+
+  bool operator==(const DisplayTransform&) const = default;
 };
 
 // Formats that writeImage knows, from the extension: png, exr, hdr, pfm (any case). UsageError on others.
 enum class ImageFormat { png, exr, hdr, pfm };
 ImageFormat imageFormatOf(const std::filesystem::path& path);
 
-// Written whole or not at all. EXR carries every layer and the metadata; the others carry the picture only.
+// Written whole or not at all. EXR carries every layer and the metadata; the others carry the picture only. An image of
+// shownCodes becomes a PNG of just these, whatever `display` says.
 void writeImage(const std::filesystem::path& path, const Image& image, const DisplayTransform& display = {});
 
 // Reads png (sRGB decoded to linear), exr (all layers), hdr, pfm. InputError names file and cause.
@@ -39,6 +42,13 @@ struct DisplayPicture {
   std::size_t nonFinite = 0;
 };
 DisplayPicture displayPicture(const Image& image, const DisplayTransform& display);
+
+// The transform for devices to follow bit for bit. What is shown is x = min(max(2^stops * linear, 0), 1), 0 for NaN;
+// the word at the upper 16 bits of x is a code << 17 | a bound, and the code of x is one more where the lower 16 bits
+// of x are not below the bound.
+bool hasCodeTable(const DisplayTransform& display);  // tone maps that do nothing but clamp, without alpha
+std::vector<std::uint32_t> displayCodeTable();
+float gainOf(const DisplayTransform& display);
 
 // Linear to sRGB and back (IEC 61966-2-1), unclamped, per value.
 float srgbFromLinear(float linear);

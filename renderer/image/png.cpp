@@ -123,7 +123,7 @@ void linearize(const Decoded& decoded, float codeMax, std::vector<float>& sample
 
 Bytes encodePng(const Image& image, const DisplayTransform& display, const std::string& where) {
   const RawBytes packed = zlibStream(filteredRows(image, display, where));
-  return pngFile(image.width, image.height, display.withAlpha ? 4 : 3, image.metadata,
+  return pngFile(image.width, image.height, DisplayRows(image, display).channels(), image.metadata,
                  View(packed.data.get(), packed.size));
 }
 

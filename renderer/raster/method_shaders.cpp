@@ -5,23 +5,27 @@
 
 namespace crosslight {
 
-MethodShaders shadersOf(const RenderSettings& settings) {
+MethodShaders shadersOf(const RenderSettings& settings, bool codes) {
   switch (settings.method) {
     case Method::wireframe:
       return {"phong.vert", "wireframe.frag", "phong_aov.frag"};
     case Method::flat:
-      if (settings.flatVertex == FlatVertex::centroid) return {"phong.vert", "centroid.frag", "centroid_aov.frag"};
+      if (settings.flatVertex == FlatVertex::centroid)
+        return {"phong.vert", codes ? "centroid_codes.frag" : "centroid.frag", "centroid_aov.frag"};
+      if (codes) return {"flat_codes.vert", "flat_codes.frag", {}};
       return {"flat.vert", "flat.frag", "flat_aov.frag"};
     case Method::gouraud:
-      return {"gouraud.vert", "gouraud.frag", "gouraud_aov.frag"};
+      return {"gouraud.vert", codes ? "gouraud_codes.frag" : "gouraud.frag", "gouraud_aov.frag"};
     case Method::phong:
-      return {"phong.vert", "phong.frag", "phong_aov.frag"};
+      return {"phong.vert", codes ? "phong_codes.frag" : "phong.frag", "phong_aov.frag"};
     case Method::whitted:
       break;
   }
   CL_CHECK(settings.method != Method::whitted);
   return {};
 }
+
+std::string_view backgroundShader(bool codes) { return codes ? "background_codes.frag" : "background.frag"; }
 
 std::uint32_t depthVaryingsOf(const Plan& plan) {
   const bool textured = plan.has(Effect::baseColorTexture) && plan.has(Effect::alphaMask);

@@ -15,7 +15,9 @@ struct MethodShaders {
   std::string_view aovFragment;  // records AOVs instead of a color
 };
 
-MethodShaders shadersOf(const RenderSettings& settings);
+// `codes`: as a display's codes (canDrawCodes).
+MethodShaders shadersOf(const RenderSettings& settings, bool codes);
+std::string_view backgroundShader(bool codes);
 
 // Bits shared::kVarying* that the method's picture needs; its AOVs need all.
 std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan);

@@ -7,6 +7,7 @@
 #include "raster/draw_uniforms.h"
 #include "raster/method_shaders.h"
 #include "raster/strip.h"
+#include "raster/targets.h"
 
 namespace crosslight {
 
@@ -29,14 +30,16 @@ class Raster final : public Technique {
         buffers_(buffers),
         lists_(makeDrawLists(scene.flat(), scene.scene(), plan, settings)),
         uniforms_(device, scene),
-        layout_(device, bindings(), sizeof(RasterPush)),
+        layout_(device, bindings(buffers), sizeof(RasterPush)),
         set_(device, layout_),
         commands_(device),
-        stripRows_(rowsPerStrip(settings.width, settings.height, settings.msaa)) {
+        stripRows_(rowsPerStrip(settings.width, settings.height, settings.msaa)),
+        targets_(device, settings, stripRows_, buffers) {
+    CL_CHECK(!buffers.wantsCodes() || canDrawCodes(plan, settings));
     scene_.bind(set_);
     uniforms_.bind(set_);
     set_.set(kBindAovs, buffers.aovs);
-    makeTargets(device);
+    if (buffers.wantsCodes()) set_.set(kBindDisplayCodes, buffers.codeTable);
     makePipelines(device);
     makeIndices(device);
   }
@@ -62,26 +65,11 @@ class Raster final : public Technique {
   std::map<std::string, std::uint64_t> counters() const override { return {{"draws", draws_}}; }
 
  private:
-  static std::vector<gpu::Binding> bindings() {
+  static std::vector<gpu::Binding> bindings(const FilmBuffers& buffers) {
     std::vector<gpu::Binding> all = sceneBindings({kBindAovs});
     for (const gpu::Binding& binding : DrawUniforms::bindings()) all.push_back(binding);
+    if (buffers.wantsCodes()) all.push_back({kBindDisplayCodes, gpu::BindingType::texelBufferUint1});
     return all;
-  }
-
-  // Of one strip. Where a picture is one strip the film's buffer may itself be the target.
-  void makeTargets(const gpu::Device& device) {
-    const std::uint32_t w = settings_.width, h = stripRows_, samples = settings_.msaa;
-    const std::uint64_t pictureBytes = std::uint64_t{sizeof(glm::vec4)} * w * settings_.height;
-    gpu::Image picture;
-    if (h == settings_.height && buffers_.sampleColor.sizeBytes() >= pictureBytes) {
-      picture = gpu::Image::over(device, "sample", buffers_.sampleColor, w, h);
-    }
-    drawsIntoFilm_ = bool(picture);
-    if (!picture) picture = gpu::Image(device, "color", gpu::ImageFormat::rgba32f, w, h);
-    if (samples > 1) multisampled_ = gpu::Image(device, "samples", gpu::ImageFormat::rgba32f, w, h, samples);
-    picture_ = std::move(picture);
-    depth_ = gpu::Image(device, "depth", gpu::ImageFormat::depth32f, w, h, samples);
-    if (!settings_.aovs.empty()) aovDepth_ = gpu::Image(device, "AOV depth", gpu::ImageFormat::depth32f, w, h, 1);
   }
 
   gpu::Constants constants(std::uint32_t varyings, std::uint32_t variant = 0) const {
@@ -105,6 +93,7 @@ class Raster final : public Technique {
                     {3, 1, offsetof(VertexAttributes, uv0), float2},
                     {4, 1, offsetof(VertexAttributes, uv1), float2},
                     {5, 1, offsetof(VertexAttributes, color), float4}};
+    s.colorFormat = targets_.colorFormat;
     s.samples = settings_.msaa;
     return s;
   }
@@ -122,7 +111,8 @@ class Raster final : public Technique {
   gpu::GraphicsState backgroundState() const {
     gpu::GraphicsState s;
     s.vertex = gpu::embeddedShader("background.vert");
-    s.fragment = gpu::embeddedShader("background.frag");
+    s.fragment = gpu::embeddedShader(backgroundShader(buffers_.wantsCodes()));
+    s.colorFormat = targets_.colorFormat;
     s.samples = settings_.msaa;
     s.depthTest = gpu::DepthTest::equal;
     s.depthWrite = false;
@@ -135,7 +125,7 @@ class Raster final : public Technique {
   }
 
   void makePipelines(const gpu::Device& device) {
-    const MethodShaders shaders = shadersOf(settings_);
+    const MethodShaders shaders = shadersOf(settings_, buffers_.wantsCodes());
     const std::uint32_t varyings = varyingsOf(settings_, plan_);
     gpu::GraphicsState color = baseState(shaders.vertex, shaders.fragment, varyings);
     color.constants = constants(varyings, clampsColors() ? kVariantClampVertexColors : 0u);
@@ -199,7 +189,8 @@ class Raster final : public Technique {
       }
       commands_.cull(call.cullsBackFaces ? gpu::Commands::Cull::back : gpu::Commands::Cull::none,
                      (call.flags & kDrawFlipsWinding) != 0);
-      commands_.push(RasterPush{call.firstTriangle, firstPixel, call.drawId, call.materialId, call.flags});
+      commands_.push(
+          RasterPush{call.firstTriangle, firstPixel, call.drawId, call.materialId, call.flags, buffers_.displayGain});
       commands_.drawIndexed(3 * call.triangleCount, 3 * call.firstTriangle, 0, 0);
       ++draws_;
     }
@@ -215,21 +206,21 @@ class Raster final : public Technique {
     commands_.beginSpan("raster");
     recordColor(strip);
     commands_.endSpan();
-    if (drawsIntoFilm_) {
+    if (targets_.areFilm) {
       CL_CHECK_EQ(band.firstRow, 0u);  // a film as large as the picture has one band
       return;
     }
     commands_.beginSpan("copy");
     const std::uint64_t offset =
-        std::uint64_t{sizeof(glm::vec4)} * settings_.width * (strip.rows.firstRow - band.firstRow);
-    commands_.copyToBuffer(picture_, strip.rows.firstRow - strip.firstRow, strip.rows.rowCount, buffers_.sampleColor,
-                           offset);
+        std::uint64_t{targets_.pixelBytes} * settings_.width * (strip.rows.firstRow - band.firstRow);
+    commands_.copyToBuffer(targets_.picture, strip.rows.firstRow - strip.firstRow, strip.rows.rowCount,
+                           buffers_.sampleColor, offset);
     commands_.endSpan();
   }
 
   void recordColor(const Strip& strip) {
     gpu::RenderTargets targets;
-    targets.depth = &depth_;
+    targets.depth = &targets_.depth;
     if (depthFill_ && !settings_.hiddenLines) {
       beginStrip(targets, strip);
       drawCalls(depthFill_, lists_.opaque, 0);
@@ -237,8 +228,8 @@ class Raster final : public Technique {
       commands_.barrier();
       targets.clearDepth = false;
     }
-    targets.color = multisampled_ ? &multisampled_ : &picture_;
-    targets.resolve = multisampled_ ? &picture_ : nullptr;
+    targets.color = targets_.multisampled ? &targets_.multisampled : &targets_.picture;
+    targets.resolve = targets_.multisampled ? &targets_.picture : nullptr;
     targets.clearValue = glm::vec4(scene_.scene().atmosphere.background, 0.0f);
     if (background_) targets.colorBefore = gpu::ColorBefore::undefined;
     beginStrip(targets, strip);
@@ -246,6 +237,7 @@ class Raster final : public Technique {
     if (background_) {
       commands_.bind(background_, set_);
       commands_.cull(gpu::Commands::Cull::none, false);
+      commands_.push(RasterPush{0, 0, 0, 0, 0, buffers_.displayGain});
       commands_.draw(3);
     }
     drawCalls(blended_, lists_.blended, 0);
@@ -257,7 +249,7 @@ class Raster final : public Technique {
     const std::uint32_t firstPixel = (band.firstRow - strip.firstRow) * settings_.width;
     commands_.beginSpan("aovs");
     gpu::RenderTargets targets;
-    targets.depth = &aovDepth_;
+    targets.depth = &targets_.aovDepth;
     beginStrip(targets, strip);
     drawCalls(aovDepthPass_, lists_.records, firstPixel);
     commands_.endRendering();
@@ -279,8 +271,7 @@ class Raster final : public Technique {
   gpu::BindingSet set_;
   gpu::Commands commands_;
   std::uint32_t stripRows_;
-  gpu::Image picture_, multisampled_, depth_, aovDepth_;
-  bool drawsIntoFilm_ = false;
+  RasterTargets targets_;
   gpu::GraphicsPipeline opaque_, blended_, background_, depthFill_, aovDepthPass_, aovPass_;
   gpu::Buffer rotatedIndices_;
   std::uint64_t draws_ = 0;

@@ -1,5 +1,5 @@
 // Fragment stage of every raster method: finds the surface, takes or computes its lighting, and either colors the
-// pixel or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
+// pixel, as floats or as a display's codes (CL_CODES), or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "raster/draw.glsl"
@@ -10,6 +10,9 @@
 #ifdef CL_AOV
 layout(early_fragment_tests) in;
 layout(set = 0, binding = kBindAovs, scalar) writeonly buffer AovBlock { AovRecord aovs[]; };
+#elif defined(CL_CODES)
+layout(location = 0) out uint outCodes;
+#include "raster/display.glsl"
 #else
 layout(location = 0) out vec4 outColor;  // premultiplied
 #endif
@@ -28,14 +31,18 @@ SurfaceInput surfaceInput() {
   return at;
 }
 
+#ifdef CL_SUMS_MODE
+vec3 sumFrom(uint place, bool front) { return front ? CL_SUM_OF(litSums[place]) : CL_SUM_OF(litSums[kBack + place]); }
+#endif
+
 LightSums lighting(SurfacePoint s) {
 #ifdef CL_SUMS_MODE
   bool front = gl_FrontFacing || !CL_HAS(twoSided);
-  LightSums sums = LightSums(front ? litSums[0] : litSums[kBack], vec3(0.0), vec3(0.0), vec3(0.0));
+  LightSums sums = LightSums(sumFrom(0u, front), vec3(0.0), vec3(0.0), vec3(0.0));
   if (kManySums) {
-    sums.diffuse = front ? litSums[kDiffuse] : litSums[kBack + kDiffuse];
-    sums.specular = front ? litSums[kSpecular] : litSums[kBack + kSpecular];
-    if (kSumsHaveFresnel) sums.fresnel = front ? litSums[kFresnel] : litSums[kBack + kFresnel];
+    sums.diffuse = sumFrom(kDiffuse, front);
+    sums.specular = sumFrom(kSpecular, front);
+    if (kSumsHaveFresnel) sums.fresnel = sumFrom(kFresnel, front);
   }
   return sums;
 #else
@@ -100,6 +107,11 @@ void main() {
   SurfacePoint s = surfaceAt(at);
 #ifdef CL_AOV
   record(at, s, compose(s, lighting(s), frame.ambient));
+#elif defined(CL_CODES)  // nothing is transparent
+  outCodes = shownCodes(litColor(at, s));
+#ifdef CL_FLAT_CODES
+  if (kShownByVertex) outCodes = gl_FrontFacing || !CL_HAS(twoSided) ? litSums[0].x : litSums[kBack].x;
+#endif
 #else
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   float through = CL_HAS(transparency) ? maxComponent(s.transmissionColor) * float(s.model == kModel_cookTorrance) : 0.0;

@@ -46,5 +46,15 @@ const uint kSpecular = 2u * kMany;
 const uint kFresnel = 3u * kMany * uint(kSumsHaveFresnel);
 const uint kSums = 1u + 2u * kMany + kMany * uint(kSumsHaveFresnel);
 const uint kBack = kSums * uint(CL_HAS(twoSided));
+#ifdef CL_FLAT_CODES
+// The bits of the sums; but where the color is whole, and the same all over the triangle, the word that the film takes.
+const bool kShownByVertex = !kColorsMayVary;
+layout(location = 5) flat CL_STAGE uvec3 litSums[kSums + kBack];
+#define CL_SUM_OF(sum) uintBitsToFloat(sum)
+#define CL_PASSED_SUM(sum) floatBitsToUint(sum)
+#else
 layout(location = 5) CL_SUMS_MODE CL_STAGE vec3 litSums[kSums + kBack];
+#define CL_SUM_OF(sum) (sum)
+#define CL_PASSED_SUM(sum) (sum)
+#endif
 #endif

@@ -12,6 +12,9 @@
 #include "shade/shade.glsl"
 #define CL_STAGE out
 #include "raster/varyings.glsl"
+#ifdef CL_FLAT_CODES
+#include "raster/display.glsl"
+#endif
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -36,6 +39,18 @@ LightSums lightVertex(bool frontFacing) {
   if (whole) sums.ambient = color;
   return sums;
 }
+
+void passOn(LightSums sums, uint side) {
+  litSums[side] = CL_PASSED_SUM(sums.ambient);
+#ifdef CL_FLAT_CODES
+  if (kShownByVertex) litSums[side].x = shownCodes(sums.ambient);
+#endif
+  if (kManySums) {
+    litSums[side + kDiffuse] = CL_PASSED_SUM(sums.diffuse);
+    litSums[side + kSpecular] = CL_PASSED_SUM(sums.specular);
+    if (kSumsHaveFresnel) litSums[side + kFresnel] = CL_PASSED_SUM(sums.fresnel);
+  }
+}
 #endif
 
 void main() {
@@ -46,21 +61,7 @@ void main() {
   if (CL_VARIES(Uvs)) passed[kUvs] = vec4(inUv0, inUv1);
   if (CL_VARIES(Color)) passed[kColor] = inColor;
 #ifdef CL_SUMS_MODE
-  LightSums front = lightVertex(true);
-  litSums[0] = front.ambient;
-  if (kManySums) {
-    litSums[kDiffuse] = front.diffuse;
-    litSums[kSpecular] = front.specular;
-    if (kSumsHaveFresnel) litSums[kFresnel] = front.fresnel;
-  }
-  if (CL_HAS(twoSided)) {
-    LightSums back = lightVertex(false);
-    litSums[kBack] = back.ambient;
-    if (kManySums) {
-      litSums[kBack + kDiffuse] = back.diffuse;
-      litSums[kBack + kSpecular] = back.specular;
-      if (kSumsHaveFresnel) litSums[kBack + kFresnel] = back.fresnel;
-    }
-  }
+  passOn(lightVertex(true), 0u);
+  if (CL_HAS(twoSided)) passOn(lightVertex(false), kBack);
 #endif
 }

@@ -55,6 +55,8 @@ CL_CONST uint kBindInstanceTriangles = 33;  // texel buffer, RGBA32UI, 2 per Ins
 CL_CONST uint kBindRest = 28;       // groups whose packet gave up, behind the dispatch arguments that count them
 CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
 CL_CONST uint kBindFilmParts = 18;  // FilmParts[pixels of the band], or one dummy
+// Set in a pixel of the film's codes whose color is finite.
+CL_CONST uint kFiniteCode = 0xff000000u;
 
 // Specialisation constants; their defaults in the shaders are "everything".
 CL_CONST uint kSpecModels = 0;                 // bit i: illumination model i may occur

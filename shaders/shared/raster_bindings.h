@@ -6,6 +6,7 @@
 CL_SHARED_BEGIN
 CL_CONST uint kBindDrawMaterial = 30;  // uniform MaterialRecord: a window onto that of the draw
 CL_CONST uint kBindFewLights = 31;     // uniform LightRecord[kFewLights]
+CL_CONST uint kBindDisplayCodes = 40;  // uint texels: displayCodeTable() of the image room; pictures of codes only
 
 CL_CONST uint kSpecVaryings = 30;    // bits kVarying*: what the vertex stage passes on and fragments read
 CL_CONST uint kSpecLightCount = 31;  // lights in kBindFewLights; kManyLights: read kBindLights instead
@@ -30,7 +31,8 @@ struct RasterPush {
   uint firstPixel;     // AOV pass: subtracted from the target's pixel index to give that within the band
   uint drawId;         // AOV pass
   uint materialId;
-  uint drawFlags;  // kDraw*
+  uint drawFlags;     // kDraw*
+  float displayGain;  // pictures of codes only
 };
 CL_SHARED_END
 #endif

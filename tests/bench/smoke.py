@@ -17,7 +17,7 @@ COMPARED = {
     "bvh": {(part, peer) for part in ("tree", "fast", "medium", "high", "whole")
             for peer in ("embree_low", "embree_medium")},
     "rays": {(kind, peer) for kind in ("primary", "shadow", "bounce") for peer in ("embree1", "embree8")},
-    "raster": {(method, peer) for method in ("flat", "gouraud", "phong") for peer in ("osmesa", "osmesaFloat")},
+    "raster": {(method + kind, "osmesa" + kind) for method in ("flat", "gouraud", "phong") for kind in ("", "Float")},
     "start": {("warm", "cold")},
 }
 # What it compares with itself.

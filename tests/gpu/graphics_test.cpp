@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "gpu_fixture.h"
 
@@ -249,7 +250,7 @@ TEST_F(GpuTest, AViewportOfRowsShowsThatPartOfThePicture) {
 
 TEST_F(GpuTest, AnImageOverABufferIsTheBuffersContents) {
   const Buffer pixels(device(), "pixels", 16 * 8 * 8, useStorage);
-  const Image picture = Image::over(device(), "picture", pixels, 8, 8);
+  const Image picture = Image::over(device(), "picture", ImageFormat::rgba32f, pixels, 8, 8);
   if (!picture) GTEST_SKIP() << device().info().name << " does not lay out an image as a buffer";
   Canvas canvas(device(), 8, 8);
   Commands commands(device());
@@ -266,7 +267,31 @@ TEST_F(GpuTest, AnImageWhoseRowsABufferCannotHoldIsNotMade) {
   // 3 pixels are 48 bytes: llvmpipe begins rows at multiples of 64.
   const Buffer pixels(device(), "pixels", 16 * 3 * 3, useStorage);
   if (!device().info().isSoftware) GTEST_SKIP() << "of software devices";
-  EXPECT_FALSE(Image::over(device(), "picture", pixels, 3, 3));
+  EXPECT_FALSE(Image::over(device(), "picture", ImageFormat::rgba32f, pixels, 3, 3));
+}
+
+TEST_F(GpuTest, ATargetOfIntegersKeepsTheirBits) {
+  const Buffer memory(device(), "pixels", 4 * 16 * 4, useStorage);
+  Image targets[] = {Image(device(), "integers", ImageFormat::r32ui, 16, 4),
+                     Image::over(device(), "integers", ImageFormat::r32ui, memory, 16, 4)};
+  const float value = 0.7f;
+  for (const Image& target : targets) {
+    if (!target) continue;  // the device cannot lay it out so
+    Canvas canvas(device(), 16, 4);
+    canvas.state.fragment = embeddedShader("bits.frag");
+    canvas.state.colorFormat = ImageFormat::r32ui;
+    RenderTargets into = canvas.targets();
+    into.color = &target;
+    Commands commands(device());
+    commands.begin();
+    EXPECT_THROW(canvas.draw(commands, into, leftPart(1.0f, 0.5f, kRed)), InternalError) << "no clear value";
+    into.colorBefore = ColorBefore::undefined;
+    canvas.draw(commands, into, leftPart(1.0f, 0.5f, glm::vec4(value, 0.0f, 0.0f, 0.0f)));
+    const Buffer pixels(device(), "copy", 4 * 16 * 4, useReadback);
+    commands.copyToBuffer(target, 0, 4, pixels);
+    commands.submitAndWait();
+    EXPECT_THAT(pixels.readAll<std::uint32_t>(), testing::Each(std::bit_cast<std::uint32_t>(value)));
+  }
 }
 
 TEST_F(GpuTest, ASecondBatchKeepsWhatTheFirstOneDrew) {

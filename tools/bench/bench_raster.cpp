@@ -1,9 +1,11 @@
 // One frame by each raster method against OSMesa on the same mesh, wall time of both: ours from recording to the
-// picture in a buffer (float RGBA), OSMesa's from the clear to glFinish, into 8-bit RGBA (a quarter to write, its
-// users' usual format) and into float RGBA (the same work as ours). That all draw the same picture is checked first.
+// picture in a buffer, OSMesa's from the clear to glFinish. Codes of 8 bits, as a picture for a display has them (ours
+// sRGB, OSMesa's linear), against OSMesa's 8-bit RGBA; floats against its float RGBA. That all draw the same picture is
+// checked first.
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/time.h"
@@ -42,14 +44,15 @@ glm::mat4 glFromVulkanClip() {
   return m;
 }
 
-// One method ready to draw.
+// One method ready to draw, in floats or as codes.
 class OurFrame {
  public:
-  OurFrame(const gpu::Device& device, const Scene& scene, Method method, std::uint32_t size)
+  OurFrame(const gpu::Device& device, const Scene& scene, Method method, std::uint32_t size,
+           const std::optional<DisplayTransform>& shownBy)
       : settings_(settingsFor(method, size)),
         plan_(makePlan(scene, settings_)),
         gpuScene_(device, scene, settings_, flattenScene(scene, renderOrigin(scene.cameras[0]), false), nullptr),
-        film_(device, {size, size, samplePattern(1, FilterShape::box, 0), false}),
+        film_(device, {size, size, samplePattern(1, FilterShape::box, 0), false, {}, shownBy}),
         technique_(makeRaster(device, gpuScene_, plan_, settings_, film_.buffers())) {}
 
   // Wall milliseconds, and the device's own figure for the drawing, as `name` and `name`.device.
@@ -63,6 +66,7 @@ class OurFrame {
     return {{name, wallMs}, {name + ".device", deviceMs}};
   }
 
+  std::vector<std::uint32_t> codes() { return film_.buffers().sampleColor.readAll<std::uint32_t>(); }
   std::vector<glm::vec4> pixels() { return film_.buffers().sampleColor.readAll<glm::vec4>(); }
 
   static RenderSettings settingsFor(Method method, std::uint32_t size) {
@@ -129,9 +133,21 @@ double coverageOf(const std::vector<glm::vec4>& pixels) {
 struct Peer {
   std::unique_ptr<OsmesaPeer> gl;
   const char* suffix;
+  GlPixels format;
 };
 constexpr std::pair<GlPixels, const char*> kFormats[] = {{GlPixels::bytes, ".osmesa"},
                                                          {GlPixels::floats, ".osmesaFloat"}};
+
+// Codes are what the display transform makes of the floats, bit for bit.
+void checkCodes(Bench& bench, const std::string& name, OurFrame& shown, OurFrame& floats) {
+  const std::vector<glm::vec4> pixels = floats.pixels();
+  const std::vector<std::uint32_t> codes = shown.codes();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) different += srgbCodeFromLinear(pixels[i][c]) == (codes[i] >> 8 * c & 0xffu) ? 0 : 1;
+  }
+  bench.report.addCheck(name, different == 0, {{"differentCodes", different}});
+}
 
 void checkPicture(Bench& bench, const std::string& name, OurFrame& frame, const std::vector<glm::vec4>& theirs) {
   const std::vector<glm::vec4> pixels = frame.pixels();
@@ -141,20 +157,27 @@ void checkPicture(Bench& bench, const std::string& name, OurFrame& frame, const 
                         {{"pixelsApart", d.pixelsApart}, {"rmse", d.rmse}, {"coverage", coverage}});
 }
 
-void timeFrames(Bench& bench, const std::string& ours, OurFrame& frame, GlShading shading,
+void timeFrames(Bench& bench, const std::string& ours, OurFrame& shown, OurFrame& floats, GlShading shading,
                 const std::vector<Peer>& peers) {
-  std::vector<Contender> contenders{[&] { return frame.draw(ours); }};
-  frame.draw(ours);
+  const std::string oursFloat = ours + "Float";
+  std::vector<Contender> contenders{[&] { return shown.draw(ours); }, [&] { return floats.draw(oursFloat); }};
+  shown.draw(ours);
+  floats.draw(oursFloat);
+  checkCodes(bench, ours + ".codes", shown, floats);
   for (const Peer& peer : peers) {
     const std::string theirs = ours + peer.suffix;
     contenders.push_back([&peer, shading, theirs] { return Measured{{theirs, peer.gl->frame(shading)}}; });
     peer.gl->frame(shading);
-    checkPicture(bench, theirs + ".picture", frame, peer.gl->pixels());
+    checkPicture(bench, theirs + ".picture", floats, peer.gl->pixels());
   }
   const Rounds rounds = interleave(contenders, bench.rounds);
-  bench.report.addTime(ours, rounds);
-  bench.report.addTime(ours + ".device", rounds);
-  for (const Peer& peer : peers) bench.report.compare(ours, ours + peer.suffix, rounds, Quantity::time);
+  for (const std::string& name : {ours, oursFloat}) {
+    bench.report.addTime(name, rounds);
+    bench.report.addTime(name + ".device", rounds);
+  }
+  for (const Peer& peer : peers) {
+    bench.report.compare(peer.format == GlPixels::bytes ? ours : oursFloat, ours + peer.suffix, rounds, Quantity::time);
+  }
 }
 
 void drawFrames(Bench& bench, std::uint32_t triangles, std::uint32_t size) {
@@ -167,12 +190,13 @@ void drawFrames(Bench& bench, std::uint32_t triangles, std::uint32_t size) {
   for (const auto& [format, suffix] : kFormats) {
     if (!osmesaAvailable()) break;
     const GlScene gl = glSceneOf(scene, flat, normals, OurFrame::settingsFor(Method::flat, size));
-    peers.push_back({std::make_unique<OsmesaPeer>(gl, size, size, format), suffix});
+    peers.push_back({std::make_unique<OsmesaPeer>(gl, size, size, format), suffix, format});
   }
   if (!peers.empty()) bench.report.addCheck(prefix + "osmesa", true, {{"renderer", peers.front().gl->renderer()}});
   for (const Row& row : kRows) {
-    OurFrame frame(bench.device(), scene, row.method, size);
-    timeFrames(bench, prefix + row.name, frame, row.shading, peers);
+    OurFrame shown(bench.device(), scene, row.method, size, DisplayTransform{});
+    OurFrame floats(bench.device(), scene, row.method, size, std::nullopt);
+    timeFrames(bench, prefix + row.name, shown, floats, row.shading, peers);
   }
 }
 

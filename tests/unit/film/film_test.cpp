@@ -126,6 +126,35 @@ TEST(Film, ofSomeRowsHasTheBitsOfTheWhole) {
   EXPECT_EQ(at, some.picture.size());
 }
 
+TEST(Film, ofCodesHandsThemOnAndCountsWhatIsNotFinite) {
+  FilmSettings settings{kWidth, kHeight, {{0.5f, 0.5f}}, false, {}};
+  settings.shownBy = DisplayTransform{.exposureStops = 1};
+  Film film(device(), settings);
+  EXPECT_TRUE(film.buffers().wantsCodes());
+  EXPECT_EQ(film.buffers().displayGain, 2.0f);
+  EXPECT_EQ(film.buffers().sampleColor.sizeBytes(), kWidth * kHeight * sizeof(std::uint32_t));
+  class Counting final : public Technique {
+   public:
+    explicit Counting(FilmBuffers& b) : buffers(b) {}
+    void renderSample(const SampleRequest&, Tally&) override {
+      std::vector<std::uint32_t> codes(kWidth * kHeight);
+      for (std::uint32_t p = 0; p < codes.size(); ++p) codes[p] = p | (p % 700 == 699 ? 0u : shared::kFiniteCode);
+      buffers.sampleColor.write(0, std::as_bytes(std::span(codes)));
+    }
+    std::string promise() const override { return ""; }
+    FilmBuffers& buffers;
+  } counting(film.buffers());
+  Tally tally;
+  std::uint32_t next = 0;
+  const FilmResult result = film.expose(counting, tally, [&](const ExposedPixels& pixels) {
+    EXPECT_TRUE(pixels.picture.empty());
+    for (const std::uint32_t code : pixels.codes) ASSERT_EQ(code & 0xffffffu, next++);
+  });
+  EXPECT_EQ(next, kWidth * kHeight);
+  EXPECT_EQ(result.nonfinite, 2u);
+  EXPECT_EQ(result.firstNonfinitePixel, 699u);
+}
+
 TEST(Film, tellsNothingHitFromHit) {
   const Exposed exposed = expose({kWidth, kHeight, {{0.5f, 0.5f}}, true, {}});
   for (std::uint32_t p = 0; p < kWidth * kHeight; ++p) {

@@ -116,6 +116,37 @@ TEST(ToneMapping, NeutralKeepsHuesBelowCompressionAndWhitensAbove) {
   EXPECT_GE(bright.r, bright.g);
 }
 
+// A device reads the code of x out of the table by the rule that the header states.
+TEST(CodeTable, GivesDevicesTheSameCodes) {
+  const std::vector<std::uint32_t> table = displayCodeTable();
+  const std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
+  ASSERT_EQ(table.size(), (one >> 16) + 1);
+  const auto check = [&](std::uint32_t bits) {
+    const std::uint32_t word = table[bits >> 16];
+    const std::uint32_t code = (word >> 17) + ((bits & 0xffffu) >= (word & 0x1ffffu) ? 1 : 0);
+    ASSERT_EQ(code, srgbCodeFromLinear(std::bit_cast<float>(bits))) << std::bit_cast<float>(bits);
+  };
+  for (std::uint32_t bits = 0; bits < one; bits += 97) check(bits);
+  check(one);
+  for (std::uint32_t code = 1; code < 256; ++code) {  // the last float below each step, and the first above
+    std::uint32_t below = 0, above = one;
+    while (above - below > 1) {
+      const std::uint32_t middle = below + (above - below) / 2;
+      (srgbCodeFromLinear(std::bit_cast<float>(middle)) >= code ? above : below) = middle;
+    }
+    check(below);
+    check(above);
+  }
+}
+
+TEST(CodeTable, IsForTransformsThatOnlyClamp) {
+  EXPECT_TRUE(hasCodeTable({}));
+  EXPECT_TRUE(hasCodeTable({.toneMap = ToneMap::none, .exposureStops = 3}));
+  EXPECT_FALSE(hasCodeTable({.toneMap = ToneMap::reinhard}));
+  EXPECT_FALSE(hasCodeTable({.toneMap = ToneMap::neutral}));
+  EXPECT_FALSE(hasCodeTable({.withAlpha = true}));
+}
+
 TEST(ToneMapping, FollowsTheExposure) {
   Image image = makeImage(1, 1);
   image.picture().samples = {0.25f, 0.5f, 2.0f, 0.5f};

@@ -221,6 +221,22 @@ TEST(Png, ShowsNotANumberAsBlackAndSaysHowMany) {
   EXPECT_TRUE(said);
 }
 
+TEST(Png, OfCodesHasThemAsTheyAre) {
+  const TemporaryFolder folder;
+  Image image = makeShownImage(5, 3);
+  for (std::size_t i = 0; i < image.shownCodes.size(); ++i) {
+    image.shownCodes[i] = static_cast<std::uint8_t>(17 * i);
+  }
+  EXPECT_EQ(displayPicture(image, {.exposureStops = 5}).codes, image.shownCodes) << "they were exposed before";
+  writeImage(folder / "codes.png", image, {.exposureStops = 5});
+  const Image back = readImage(folder / "codes.png");
+  ASSERT_EQ(back.picture().channels(), 3u);
+  for (std::size_t i = 0; i < image.shownCodes.size(); ++i) {
+    ASSERT_EQ(srgbCodeFromLinear(back.picture().samples[i]), image.shownCodes[i]) << i;
+  }
+  EXPECT_THROW(writeImage(folder / "codes.exr", image), InternalError) << "there are no floats";
+}
+
 TEST(Png, CarriesTheMetadataAndItsColorSpace) {
   const TemporaryFolder folder;
   Image image = gradient(16, 16);
