@@ -19,7 +19,10 @@ uint rayIndex(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * k
 void main() {
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) startRay(k, cameraRay(cameraPlace(rayIndex(k))));
   if (!closestForInterval(true)) giveUp(spreadGroup());
-  [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
-    if (rayIndex(k) < pushed.nodeCount) hits[rayIndex(k)] = foundBy(k);
-  }
+  int taken = 0;
+  [[dont_unroll]] do {
+    HitRecord found = takeFound();
+    if (rayIndex(taken) < pushed.nodeCount) hits[rayIndex(taken)] = found;
+    ++taken;
+  } while (taken < kRaysPerLane);
 }
