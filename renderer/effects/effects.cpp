@@ -43,7 +43,7 @@ class Analysis {
     materialRules();
     vertexColors();
     sides();
-    rayRules();
+    whatRaysDo();
     promote();
     return std::move(plan_);
   }
@@ -69,9 +69,10 @@ class Analysis {
     return {};
   }
 
-  void addByMaterial(Effect effect, const char* name, const std::string& what, const MaterialTest& test) {
-    const std::string who = firstMaterial(test);
-    add(effect, name, !who.empty(), who.empty() ? "no material in use " + what : who + " " + what);
+  void addByMaterial(const MaterialRule& rule) {
+    const std::string who = firstMaterial(rule.test);
+    add(rule.effect, rule.name, !who.empty(),
+        who.empty() ? std::string("no material in use ") + rule.what : who + " " + rule.what);
   }
 
   void addListed(std::uint32_t& bits, std::uint32_t value, const char* name, const std::string& who) {
@@ -121,19 +122,7 @@ class Analysis {
   }
 
   void materialRules() {
-    addByMaterial(Effect::baseColorTexture, "baseColorTexture", "has a base color texture",
-                  [](const Material& m) { return m.baseColorTexture.present(); });
-    addByMaterial(Effect::metallicRoughnessTexture, "metallicRoughnessTexture", "has a metallic-roughness texture",
-                  [](const Material& m) { return m.metallicRoughnessTexture.present(); });
-    addByMaterial(Effect::normalMap, "normalMap", "has a normal map",
-                  [](const Material& m) { return m.normalTexture.present(); });
-    addByMaterial(Effect::occlusionTexture, "occlusionTexture", "has an occlusion texture",
-                  [](const Material& m) { return m.occlusionTexture.present(); });
-    addByMaterial(Effect::emissiveTexture, "emissiveTexture", "has an emissive texture",
-                  [](const Material& m) { return m.emissiveTexture.present(); });
-    addByMaterial(Effect::alphaMask, "alphaMask", "is cut by an alpha mask",
-                  [](const Material& m) { return m.alphaMode == AlphaMode::mask; });
-    addByMaterial(Effect::transparency, "transparency", "lets something show through", isTransparent);
+    for (const MaterialRule& rule : surfaceRules()) addByMaterial(rule);
   }
 
   void vertexColors() {
@@ -151,27 +140,25 @@ class Analysis {
     if (settings_.twoSided == TwoSided::always) {
       add(Effect::twoSided, "twoSided", true, "asked for: both sides of every surface are lit");
     } else {
-      addByMaterial(Effect::twoSided, "twoSided", "is double-sided", [](const Material& m) { return m.doubleSided; });
+      addByMaterial({Effect::twoSided, "twoSided", "is double-sided", [](const Material& m) { return m.doubleSided; }});
     }
   }
 
-  void addRayRule(Effect effect, const char* name, bool wanted, const std::string& what, const MaterialTest& test) {
-    if (!traced_) return add(effect, name, false, "not simulated by raster methods");
-    if (!wanted) return add(effect, name, false, "switched off");
-    addByMaterial(effect, name, what, test);
+  void addRayRule(const MaterialRule& rule) {
+    const bool wanted = rule.effect == Effect::reflection ? settings_.reflection : settings_.refraction;
+    if (!traced_) return add(rule.effect, rule.name, false, "not simulated by raster methods");
+    if (!wanted || settings_.maxDepth == 0) return add(rule.effect, rule.name, false, "switched off");
+    addByMaterial(rule);
   }
 
-  void rayRules() {
+  void whatRaysDo() {
     const bool lit = traced_ && settings_.shadows && !scene_.lights.empty();
     add(Effect::shadows, "shadows", lit,
         !traced_ ? "not simulated by raster methods"
                  : (!settings_.shadows ? "switched off"
                                        : (lit ? fmt::format("{} lights cast shadows", scene_.lights.size())
                                               : "the scene has no light")));
-    const bool deep = settings_.maxDepth > 0;
-    addRayRule(Effect::reflection, "reflection", settings_.reflection && deep, "reflects like a mirror", isMirror);
-    addRayRule(Effect::refraction, "refraction", settings_.refraction && deep, "refracts", refracts);
-    addRayRule(Effect::absorption, "absorption", settings_.refraction && deep, "absorbs light on its way", absorbs);
+    for (const MaterialRule& rule : rayRules()) addRayRule(rule);
   }
 
   // Mirrored and refracted rays meet surfaces from behind, which must then be lit from behind.

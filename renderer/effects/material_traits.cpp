@@ -1,5 +1,6 @@
 #include "effects/material_traits.h"
 
+#include <array>
 #include <cmath>
 
 namespace crosslight {
@@ -10,6 +11,24 @@ namespace {
 constexpr float kSmoothAlpha = 1e-3f;
 
 bool anyPositive(const glm::vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+constexpr std::array kSurfaceRules{
+    MaterialRule{Effect::baseColorTexture, "baseColorTexture", "has a base color texture",
+                 [](const Material& m) { return m.baseColorTexture.present(); }},
+    MaterialRule{Effect::metallicRoughnessTexture, "metallicRoughnessTexture", "has a metallic-roughness texture",
+                 [](const Material& m) { return m.metallicRoughnessTexture.present(); }},
+    MaterialRule{Effect::normalMap, "normalMap", "has a normal map",
+                 [](const Material& m) { return m.normalTexture.present(); }},
+    MaterialRule{Effect::occlusionTexture, "occlusionTexture", "has an occlusion texture",
+                 [](const Material& m) { return m.occlusionTexture.present(); }},
+    MaterialRule{Effect::emissiveTexture, "emissiveTexture", "has an emissive texture",
+                 [](const Material& m) { return m.emissiveTexture.present(); }},
+    MaterialRule{Effect::alphaMask, "alphaMask", "is cut by an alpha mask",
+                 [](const Material& m) { return m.alphaMode == AlphaMode::mask; }},
+    MaterialRule{Effect::transparency, "transparency", "lets something show through", isTransparent}};
+constexpr std::array kRayRules{MaterialRule{Effect::reflection, "reflection", "reflects like a mirror", isMirror},
+                               MaterialRule{Effect::refraction, "refraction", "refracts", refracts},
+                               MaterialRule{Effect::absorption, "absorption", "absorbs light on its way", absorbs}};
 
 }  // namespace
 
@@ -38,6 +57,22 @@ bool isTransparent(const Material& m) { return m.alphaMode == AlphaMode::blend |
 bool absorbs(const Material& m) {
   return refracts(m) && m.hasVolume && std::isfinite(m.attenuationDistance) &&
          (m.attenuationColor.x < 1 || m.attenuationColor.y < 1 || m.attenuationColor.z < 1);
+}
+
+bool isLit(const Material& m) {
+  if (m.model == IlluminationModel::unlit) return false;
+  return !isClassic(m) || anyPositive(m.classic.diffuseFactor) || anyPositive(m.classic.specularFactor);
+}
+
+std::span<const MaterialRule> surfaceRules() { return kSurfaceRules; }
+std::span<const MaterialRule> rayRules() { return kRayRules; }
+
+std::uint32_t effectsOf(const Material& m) {
+  std::uint32_t bits = 0;
+  for (const auto rules : {surfaceRules(), rayRules()}) {
+    for (const MaterialRule& rule : rules) bits |= rule.test(m) ? 1u << static_cast<std::uint32_t>(rule.effect) : 0u;
+  }
+  return bits;
 }
 
 }  // namespace crosslight

@@ -1,6 +1,9 @@
 // What a material asks of the light transport: one place that the analysis and the upload both ask.
 #pragma once
 
+#include <span>
+
+#include "bindings.h"
 #include "scene/scene.h"
 
 namespace crosslight {
@@ -15,5 +18,19 @@ bool refracts(const Material& material);
 // Something shows through: blending, kt or transmission.
 bool isTransparent(const Material& material);
 bool absorbs(const Material& material);
+// Light that falls on it from outside may come back: else no shadow ray is worth sending.
+bool isLit(const Material& material);
+
+// An effect that a material calls for by itself.
+struct MaterialRule {
+  Effect effect;
+  const char* name;
+  const char* what;  // "has a normal map": follows the material's name, or "no material in use"
+  bool (*test)(const Material&);
+};
+std::span<const MaterialRule> surfaceRules();  // for all methods
+std::span<const MaterialRule> rayRules();      // for rays alone
+// Bits of all rules that a material passes.
+std::uint32_t effectsOf(const Material& material);
 
 }  // namespace crosslight

@@ -12,6 +12,7 @@ enum class FlatVertex { first, last, centroid };         // where flat shading e
 enum class PixelFilter { box, tent, gaussian };          // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
 enum class KernelFamily { automatic, perLane, packet };  // of the ray kernels: same hits, other speed
 enum class InstanceMode { automatic, flatten, share };   // trees of instances (rays): same hits
+enum class HitQueues { automatic, on, off };             // of hits by what their surfaces ask for: same image
 enum class TwoSided { material, always };                // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
@@ -26,6 +27,7 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   KernelFamily kernel = KernelFamily::automatic;     // rays only
   InstanceMode instances = InstanceMode::automatic;  // rays only
+  HitQueues hitQueues = HitQueues::automatic;        // rays only
   bool shadows = true;                               // whitted
   bool reflection = true;                            // whitted
   bool refraction = true;                            // whitted; off: transmitted light goes straight on

@@ -121,16 +121,17 @@ std::uint32_t lightBatch(std::uint32_t lightCount) { return std::clamp(lightCoun
 
 namespace {
 
-std::uint32_t variantOf(const Scene& scene, const RenderSettings& settings) {
+std::uint32_t variantOf(const Scene& scene, const Plan& plan, const RenderSettings& settings) {
   const bool orthographic = scene.cameras[static_cast<std::size_t>(settings.camera)].orthographic;
-  return (orthographic ? kVariantOrthographic : 0u) | (scene.lights.size() > kLightBatch ? kVariantManyLights : 0u);
+  return (orthographic ? kVariantOrthographic : 0u) | (scene.lights.size() > kLightBatch ? kVariantManyLights : 0u) |
+         (branches(plan) ? kVariantTree : 0u);
 }
 
 gpu::BindingLayout layoutOn(const gpu::Device& device) {
   return {device,
           sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
-                         kBindAovs, kBindRest},
-                        {kBindRayTexels, kBindHitTexels, kBindNodeTexels}),
+                         kBindAovs, kBindRest, kBindQueues},
+                        {kBindRayTexels, kBindHitTexels, kBindNodeTexels, kBindHitClasses}),
           sizeof(TracePush)};
 }
 
@@ -140,23 +141,28 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
                                  const RenderSettings& settings, bool sharedTrees)
     : device_(device),
       plan_(plan),
-      variant_(variantOf(scene, settings) | (sharedTrees ? kVariantInstances : 0u)),
+      variant_(variantOf(scene, plan, settings) | (sharedTrees ? kVariantInstances : 0u)),
       choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
+      classes_(classifyHits(scene, plan, settings)),
       layout_(layoutOn(device)),
       warmUp_(device, layout_) {
-  for (const std::string& name : {choice_.camera, choice_.shadow, choice_.shapes, choice_.secondary, choice_.gather}) {
-    begin(name, 0);
+  const std::uint32_t queued = classes_.classes.empty() ? 0 : kVariantQueue;
+  for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.gather}) begin({name});
+  begin({choice_.shadow, queued});
+  if (queued != 0) begin({"classify.comp"});
+  const std::uint32_t first = settings.aovs.empty() ? 0 : kVariantAovs;
+  for (const std::uint32_t variant : {first, 0u}) {
+    if (variant != first && !branches(plan)) continue;
+    for (std::uint32_t c = 0; c < classes_.classes.size(); ++c) begin({"shade.comp", variant | kVariantQueue, c});
+    if (queued == 0) begin({"shade.comp", variant});
   }
-  if (settings.aovs.empty() || branches(plan)) begin("shade.comp", 0);
-  if (!settings.aovs.empty()) begin("shade.comp", kVariantAovs);
 }
 
-void KernelPipelines::begin(const std::string& kernel, std::uint32_t variant) {
-  const Key key{kernel, variant};
-  if (kernel.empty() || pending_.contains(key)) return;
+void KernelPipelines::begin(const KernelKey& key) {
+  if (key.kernel.empty() || pending_.contains(key)) return;
   pending_[key] = std::async(std::launch::async, [this, key] {
     gpu::ComputePipeline pipeline = makeOn(device_, layout_, key);
-    if (key.first == choice_.shadow && warmUp_.compiles()) compileElsewhere(key);
+    if (key.kernel == choice_.shadow && warmUp_.compiles()) compileElsewhere(key);
     warmUp_.add(pipeline);
     return pipeline;
   });
@@ -165,7 +171,7 @@ void KernelPipelines::begin(const std::string& kernel, std::uint32_t variant) {
 // A software driver compiles kernels one after the other. A second instance of it compiles beside the first, and leaves
 // the code in the driver's cache on disk, at the latest when it goes; there the first finds it. Where that cache is
 // switched off, nothing is won.
-void KernelPipelines::compileElsewhere(const Key& key) const {
+void KernelPipelines::compileElsewhere(const KernelKey& key) const {
   if (device_.validationOn()) return;  // would watch both
   try {
     gpu::DeviceOptions options;
@@ -189,24 +195,22 @@ bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, c
                             const RenderSettings& settings, bool sharedTrees) const {
   const bool samePlan = plan.models == plan_.models && plan.lights == plan_.lights && plan.shapes == plan_.shapes &&
                         plan.effects == plan_.effects;
-  const std::uint32_t variant = variantOf(scene, settings) | (sharedTrees ? kVariantInstances : 0u);
-  return samePlan && variant == variant_ && chooseKernels(device, plan, settings, sharedTrees) == choice_;
+  const std::uint32_t variant = variantOf(scene, plan, settings) | (sharedTrees ? kVariantInstances : 0u);
+  return samePlan && variant == variant_ && chooseKernels(device, plan, settings, sharedTrees) == choice_ &&
+         classifyHits(scene, plan, settings) == classes_;
 }
 
 void KernelPipelines::wait() {
-  while (!pending_.empty()) {
-    const Key key = pending_.begin()->first;
-    get(key.first, key.second);
-  }
+  while (!pending_.empty()) get(KernelKey(pending_.begin()->first));
 }
 
 gpu::ComputePipeline KernelPipelines::makeOn(const gpu::Device& device, const gpu::BindingLayout& layout,
-                                             const Key& key) const {
-  return {device, layout, gpu::embeddedShader(key.first), constantsOf(plan_, variant_ | key.second)};
+                                             const KernelKey& key) const {
+  const Plan& plan = key.hitClass ? classes_.classes[*key.hitClass].plan : plan_;
+  return {device, layout, gpu::embeddedShader(key.kernel), constantsOf(plan, variant_ | key.variant)};
 }
 
-const gpu::ComputePipeline& KernelPipelines::get(const std::string& kernel, std::uint32_t variant) {
-  const Key key{kernel, variant};
+const gpu::ComputePipeline& KernelPipelines::get(const KernelKey& key) {
   const auto found = pending_.find(key);
   if (found != pending_.end()) {
     ready_[key] = found->second.get();

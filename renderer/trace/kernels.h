@@ -3,10 +3,12 @@
 
 #include <future>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/effects.h"
+#include "effects/hit_classes.h"
 #include "gpu/pipeline.h"
 #include "gpu/warm_up.h"
 #include "scene/settings.h"
@@ -53,6 +55,15 @@ bool branches(const Plan& plan);
 // Rays that one workgroup of every kernel works on.
 inline constexpr std::uint32_t kRaysPerGroup = 64;
 
+// One pipeline: a kernel with bits of kSpecVariant beside the scene's own, and the class of hits whose plan it has.
+struct KernelKey {
+  std::string kernel;
+  std::uint32_t variant = 0;
+  std::optional<std::uint32_t> hitClass = {};  // none: the whole scene's plan
+
+  auto operator<=>(const KernelKey&) const = default;
+};
+
 // The pipelines of a choice, each made in a thread of its own: a driver takes 100 ms and more for the larger ones.
 class KernelPipelines {
  public:
@@ -68,24 +79,23 @@ class KernelPipelines {
   void wait();  // until all are made
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }
-  // Waits for it; makes it when it was not begun: few scenes need kVariantRest. `variant`: bits of kSpecVariant beside
-  // the scene's own.
-  const gpu::ComputePipeline& get(const std::string& kernel, std::uint32_t variant = 0);
+  const HitClasses& classes() const { return classes_; }  // none: hits are not queued
+  // Waits for it; makes it when it was not begun: few scenes need kVariantRest.
+  const gpu::ComputePipeline& get(const KernelKey& key);
 
  private:
-  using Key = std::pair<std::string, std::uint32_t>;
-
-  void begin(const std::string& kernel, std::uint32_t variant);
-  gpu::ComputePipeline makeOn(const gpu::Device& device, const gpu::BindingLayout& layout, const Key& key) const;
-  void compileElsewhere(const Key& key) const;
+  void begin(const KernelKey& key);
+  gpu::ComputePipeline makeOn(const gpu::Device& device, const gpu::BindingLayout& layout, const KernelKey& key) const;
+  void compileElsewhere(const KernelKey& key) const;
 
   const gpu::Device& device_;
   Plan plan_;
   std::uint32_t variant_;
   KernelChoice choice_;
+  HitClasses classes_;
   gpu::BindingLayout layout_;
-  std::map<Key, std::future<gpu::ComputePipeline>> pending_;
-  std::map<Key, gpu::ComputePipeline> ready_;
+  std::map<KernelKey, std::future<gpu::ComputePipeline>> pending_;
+  std::map<KernelKey, gpu::ComputePipeline> ready_;
   gpu::WarmUp warmUp_;
 };
 

@@ -19,7 +19,9 @@ namespace {
 
 constexpr std::uint32_t kChunkRays = 1u << 18;  // camera rays at once
 constexpr std::uint32_t kNodesPerPixel = 4;     // room for the tree, on average; a fuller chunk is halved
-constexpr std::uint32_t kFewestNodes = 4096;    // a small image may still have deep trees
+constexpr std::uint32_t kQueueWords = 4;        // of kBindQueues per class, before the rays
+constexpr std::uint32_t kRaysPerClassifyGroup = 4 * kRaysPerGroup;
+constexpr std::uint32_t kFewestNodes = 4096;  // a small image may still have deep trees
 
 class Whitted final : public Technique {
  public:
@@ -32,6 +34,7 @@ class Whitted final : public Technique {
         branches_(crosslight::branches(plan)),
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
+        classes_(kernels_->classes().classes),
         set_(device, kernels_->layout()),
         commands_(device) {
     makeBuffers();
@@ -43,6 +46,8 @@ class Whitted final : public Technique {
     set_.set(kBindHits, hits_);
     set_.set(kBindHitTexels, hits_);
     set_.set(kBindRest, rest_);
+    set_.set(kBindQueues, queues_);
+    set_.set(kBindHitClasses, hitClasses_);
     set_.set(kBindVisibility, visibility_);
     set_.set(kBindCounters, buffers.counters);
     set_.set(kBindSampleColor, buffers.sampleColor);
@@ -93,6 +98,11 @@ class Whitted final : public Technique {
     rest_ = gpu::Buffer(device_, "groups that packets gave up",
                         (kRestGroups + capacity_ / kRaysPerGroup + 1) * sizeof(std::uint32_t),
                         gpu::useStorage | gpu::useIndirect);
+    const std::uint64_t perClass = classes_.empty() ? 0 : kQueueWords + capacity_;
+    queues_ =
+        gpu::Buffer(device_, "hit queues", std::max<std::uint64_t>(kHitClasses * perClass, 1) * sizeof(std::uint32_t),
+                    gpu::useStorage | gpu::useIndirect);
+    hitClasses_ = gpu::Buffer::of(device_, "hit classes", kernels_->classes().ofMaterial, gpu::useUniformTexel);
     visibility_ = buffer("visibility", shadows ? std::uint64_t{capacity_} * batch_ : 1, sizeof(float));
   }
 
@@ -119,32 +129,37 @@ class Whitted final : public Technique {
     logVerbose(fmt::format("ray tree store is full: going on with chunks of {} pixels", chunk_));
   }
 
-  void record(const gpu::ComputePipeline& pipeline, const TracePush& push) {
-    commands_.bind(pipeline, set_);
-    commands_.push(push);
+  // Where a kernel's groups come from: all rays of the level, or a queue of its hits.
+  void dispatchGroups(const TracePush& push, bool queued) {
+    if (queued)
+      commands_.dispatchIndirect(queues_, push.hitClass * kQueueWords * sizeof(std::uint32_t));
+    else
+      commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
   }
 
-  // `kernel` empty: no such pass.
-  void dispatch(const std::string& kernel, const TracePush& push, const char* span, std::uint32_t variant = 0) {
-    if (kernel.empty()) return;
+  // No kernel named: no such pass.
+  void dispatch(const KernelKey& key, const TracePush& push, const char* span) {
+    if (key.kernel.empty()) return;
     commands_.beginSpan(span);
-    record(kernels_->get(kernel, variant), push);
-    commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
+    commands_.bind(kernels_->get(key), set_);
+    commands_.push(push);
+    dispatchGroups(push, (key.variant & kVariantQueue) != 0);
     commands_.endSpan();
     commands_.barrier();
   }
 
   // With packets; then, one ray per lane, those that packets gave up.
-  void dispatch(const std::string& kernel, const std::string& rest, const TracePush& push, const char* span) {
+  void dispatch(const KernelKey& key, const std::string& rest, const TracePush& push, const char* span) {
     if (!rest.empty()) {
       commands_.fill(rest_, 0, sizeof(std::uint32_t), 0u);
       commands_.fill(rest_, sizeof(std::uint32_t), 2 * sizeof(std::uint32_t), 1u);
       commands_.barrier();
     }
-    dispatch(kernel, push, span);
+    dispatch(key, push, span);
     if (rest.empty() || !packetsGiveUp_) return;
     commands_.beginSpan(span);
-    record(kernels_->get(rest, kVariantRest), push);
+    commands_.bind(kernels_->get({rest, key.variant | kVariantRest}), set_);
+    commands_.push(push);
     commands_.dispatchIndirect(rest_, 0);
     commands_.endSpan();
     commands_.barrier();
@@ -192,20 +207,55 @@ class Whitted final : public Technique {
     commands_.begin();
     commands_.barrier();
     if (primary)
-      dispatch(choice_.camera, choice_.cameraRest, push, "intersect");
+      dispatch({choice_.camera}, choice_.cameraRest, push, "intersect");
     else
-      dispatch(choice_.secondary, push, "intersect");
-    dispatch(choice_.shapes, push, "shapes");
+      dispatch({choice_.secondary}, push, "intersect");
+    dispatch({choice_.shapes}, push, "shapes");
+    if (!classes_.empty()) queueHits(push);
     const std::uint32_t lights = scene_.lightCount();
     for (std::uint32_t first = 0; first == 0 || first < lights; first += batch_) {
       push.firstLight = first;
       push.lightCount = std::min(batch_, lights - first);
-      for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
-        dispatch(choice_.shadow, choice_.shadowRest, push, "shadow");
-      }
-      dispatch("shade.comp", push, "shade", primary && aovs ? kVariantAovs : 0);
+      shadeLevel(push, primary && aovs ? kVariantAovs : 0);
     }
     submit(tally);
+  }
+
+  void queueHits(const TracePush& push) {
+    for (std::uint64_t c = 0; c < kHitClasses; ++c) {  // no group yet, of 1 x 1; none in the queue
+      const std::uint64_t at = c * kQueueWords * sizeof(std::uint32_t);
+      commands_.fill(queues_, at, sizeof(std::uint32_t), 0u);
+      commands_.fill(queues_, at + sizeof(std::uint32_t), 2 * sizeof(std::uint32_t), 1u);
+      commands_.fill(queues_, at + 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), 0u);
+    }
+    commands_.barrier();
+    TracePush every = push;
+    commands_.beginSpan("classify");
+    commands_.bind(kernels_->get({"classify.comp"}), set_);
+    commands_.push(every);
+    commands_.dispatch((push.nodeCount + kRaysPerClassifyGroup - 1) / kRaysPerClassifyGroup);
+    commands_.endSpan();
+    commands_.barrier();
+  }
+
+  // For one batch of lights: which of them reach the hits, and what the hits look like then.
+  void shadeLevel(TracePush push, std::uint32_t variant) {
+    if (classes_.empty()) {
+      traceShadows(push, 0);
+      dispatch({"shade.comp", variant}, push, "shade");
+    }
+    for (push.hitClass = 0; push.hitClass < classes_.size(); ++push.hitClass) {
+      if (classes_[push.hitClass].lit) traceShadows(push, kVariantQueue);
+    }
+    for (push.hitClass = 0; push.hitClass < classes_.size(); ++push.hitClass) {
+      dispatch({"shade.comp", variant | kVariantQueue, push.hitClass}, push, "shade");
+    }
+  }
+
+  void traceShadows(TracePush push, std::uint32_t variant) {
+    for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
+      dispatch({choice_.shadow, variant}, choice_.shadowRest, push, "shadow");
+    }
   }
 
   void gather(const std::vector<TracePush>& levels, Tally& tally) {
@@ -213,7 +263,7 @@ class Whitted final : public Technique {
     commands_.begin();
     commands_.barrier();
     for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-      dispatch(choice_.gather, *level, "gather");
+      dispatch({choice_.gather}, *level, "gather");
     }
     submit(tally);
   }
@@ -238,9 +288,10 @@ class Whitted final : public Technique {
   bool branches_;
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;
+  const std::vector<HitClass>& classes_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
-  gpu::Buffer raysBuffer_, nodes_, hits_, visibility_, rest_;
+  gpu::Buffer raysBuffer_, nodes_, hits_, visibility_, rest_, queues_, hitClasses_;
   bool packetsGiveUp_ = false;  // some do in this scene: what they leave is done again
   std::uint32_t chunk_ = 0, capacity_ = 0, batch_ = 1;
   std::map<std::string, std::uint64_t> rays_;

@@ -30,6 +30,7 @@ struct ShadedParts {
 
 LightSums illuminate(SurfacePoint s, vec3 wo, uint firstLight, uint lightCount) {
   LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+  if (specLights == 0u) return sums;
   for (uint i = 0u; i < lightCount; ++i) {
     LightRecord light = CL_LIGHT(firstLight + i);
     LightSample at = sampleLight(light, s.position);

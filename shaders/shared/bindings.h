@@ -57,6 +57,9 @@ CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
 CL_CONST uint kBindFilmParts = 18;  // FilmParts[pixels of the band], or one dummy
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
+CL_CONST uint kBindQueues = 30;  // hits of the level by class: arguments of indirect dispatches, then rays of the level
+CL_CONST uint kBindHitClasses = 31;  // texel buffer, RGBA32UI, one per material: class as a mesh's, as a shape's
+CL_CONST uint kBindFilmParts = 18;   // FilmParts[pixels of the band], or one dummy
 
 // Specialisation constants; their defaults in the shaders are "everything".
 CL_CONST uint kSpecModels = 0;                 // bit i: illumination model i may occur
@@ -71,6 +74,13 @@ CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the gro
 CL_CONST uint kVariantInstances = 64u;         // kernels of rays: instances share trees; hits name flattened triangles
 CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
 CL_CONST uint kVariantAovs = 16u;              // shade: the primary level writes AovRecords
+
+CL_CONST uint kVariantTree = 32u;   // ray kernels: surfaces send rays on, nodes are kept
+CL_CONST uint kVariantQueue = 64u;  // ray kernels: only the rays in the queue of TracePush::hitClass
+
+// kBindQueues: per class the three words of an indirect dispatch and how many there are; then per class as many words
+// as there are nodes, rays by their place in the level.
+CL_CONST uint kHitClasses = 4u;
 
 // The list at kBindRest: the three words of an indirect dispatch, one unused, then the groups.
 CL_CONST uint kRestGroups = 4u;
@@ -160,6 +170,7 @@ struct TracePush {
   uint firstInTiles;  // generate: first ray of the chunk, in the band's tile order
   uint nodeCapacity;
   uint maxDepth;
+  uint hitClass;  // whose queue is worked on
 };
 struct FilmPush {
   uint pixelCount;

@@ -17,13 +17,15 @@ layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[];
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
 #include "trace/children.glsl"
+#include "trace/results.glsl"
 
-const bool kManyLights = (specVariant & kVariantManyLights) != 0u;
 const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
+
+uint shaded_;  // ray of the level that this lane shades
 
 float lightVisibility(uint lightIndex) {
   if (!CL_HAS(shadows)) return 1.0;
-  return visibilities[lightIndex * pushed.nodeCount + gl_GlobalInvocationID.x];
+  return visibilities[lightIndex * pushed.nodeCount + shaded_];
 }
 
 // The viewer of a secondary ray is where it comes from; primary rays share the camera's rule with the rasteriser.
@@ -60,13 +62,6 @@ vec3 absorbed(uint medium, float distance) {
   return m.attenuationDistance > 0.0 ? remaining : vec3(1.0);
 }
 
-struct Shaded {
-  vec3 value;
-  float alpha;
-  vec3 weightScale;  // what is left after the way through a medium
-  Children children;
-};
-
 Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   bool firstBatch = !kManyLights || pushed.firstLight == 0u;
   HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
@@ -88,36 +83,21 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   return shaded;
 }
 
-// One level, no tree: the sample is complete when the last batch of lights is.
-void storeSample(uint pixel, Shaded shaded) {
-  vec4 sofar = vec4(0.0);
-  if (kManyLights && pushed.firstLight > 0u) sofar = vec4(samples[pixel].rgb, 0.0);
-  samples[pixel] = vec4(sofar.rgb + shaded.value, shaded.alpha);
-}
-
-void storeNode(uint index, RayRecord ray, Shaded shaded) {
-  if (kManyLights && pushed.firstLight > 0u) {
-    nodes[index].value += shaded.value;
-    return;
-  }
-  nodes[index].value = shaded.value;
-  nodes[index].alpha = shaded.alpha;
-  nodes[index].reflected = shaded.children.reflected;
-  nodes[index].transmitted = shaded.children.transmitted;
-  if (CL_HAS(absorption) && ray.kind != kRayPrimary) nodes[index].weight *= shaded.weightScale;
-}
-
 void main() {
-  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
-  uint index = pushed.firstNode + gl_GlobalInvocationID.x;
-  CameraPlace place = cameraPlace(gl_GlobalInvocationID.x);
+  uint at = rayOfInvocation();
+  if (at == kNoRay) return;
+  uint index = pushed.firstNode + at;
+  CameraPlace place = cameraPlace(at);
   RayRecord ray = rayOfNode(index, place);
   uint pixel = pixelOf(place);
   if (ray.kind == kRayPrimary && pixel == kNoPixel) return;
   HitRecord hit = hitOf(index);
-  bool later = kManyLights && pushed.firstLight > 0u;
-  Shaded shaded = Shaded(later ? vec3(0.0) : frame.background, 0.0, vec3(1.0), Children(kNoRayNode, kNoRayNode));
-  if (hit.primitive != kNoHit) shaded = shadeHit(ray, hit, pixel);
+  if ((specVariant & kVariantQueue) == 0u && hit.primitive == kNoHit) {  // queues hold hits alone
+    storeMiss(index, pixel);
+    return;
+  }
+  shaded_ = at;
+  Shaded shaded = shadeHit(ray, hit, pixel);
   if (kBranches) storeNode(index, ray, shaded);
-  else if (!later || hit.primitive != kNoHit) storeSample(pixel, shaded);
+  else storeSample(pixel, shaded);
 }

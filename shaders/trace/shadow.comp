@@ -13,7 +13,7 @@ float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded her
 
 void main() {
   uint ray = rayOfInvocation();
-  bool inLevel = ray < pushed.nodeCount;
+  bool inLevel = ray != kNoRay;
   float visible = 1.0;
   bool traced = false;
   if (inLevel) {

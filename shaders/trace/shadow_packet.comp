@@ -13,25 +13,25 @@ layout(local_size_x = 8) in;
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
-uint rayIndex(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
+uint placeOf(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * kLanes + gl_LocalInvocationID.x; }
 
 void main() {
   LightRecord light = lightOf(pushed.firstLight + pushed.lightInBatch);
   uint traced = 0u;
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
-    uint index = min(rayIndex(k), pushed.nodeCount - 1u);
-    HitRecord hit = hitOf(pushed.firstNode + index);
+    uint ray = rayAtPlace(placeOf(k));
+    HitRecord hit = hitOf(pushed.firstNode + min(ray, pushed.nodeCount - 1u));
     PrimitiveTexels p = fetchPrimitive(hit.primitive == kNoHit ? 0u : hit.primitive);
     TrianglePoint point = pointOnTriangle(p, barycentricsOf(hit));
     ShadowRay to = shadowRay(point.position, point.error, triangleNormal(p.v0, p.v1, p.v2, false), hit.primitive, light);
-    bool counts = to.counts && hit.primitive != kNoHit && rayIndex(k) < pushed.nodeCount;
+    bool counts = to.counts && hit.primitive != kNoHit && ray != kNoRay;
     startShadowRay(k, to.ray, counts);
     traced += counts ? 1u : 0u;
   }
   if (!searchBlockers()) giveUp(spreadGroup());
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
-    if (rayIndex(k) < pushed.nodeCount)
-      visibilities[pushed.lightInBatch * pushed.nodeCount + rayIndex(k)] = blocked_[k] ? 0.0 : 1.0;
+    uint ray = rayAtPlace(placeOf(k));
+    if (ray != kNoRay) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = blocked_[k] ? 0.0 : 1.0;
   }
   traced += subgroupShuffleXor(traced, 1u);
   traced += subgroupShuffleXor(traced, 2u);

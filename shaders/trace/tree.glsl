@@ -11,9 +11,10 @@ layout(set = 0, binding = kBindHitTexels) uniform usamplerBuffer hitTexels;
 layout(set = 0, binding = kBindVisibility, scalar) buffer VisibilityBlock { float visibilities[]; };
 
 layout(set = 0, binding = kBindRest, scalar) buffer RestBlock { uint rest[]; };
+layout(set = 0, binding = kBindQueues, scalar) buffer QueueBlock { uint queues[]; };
 
 // Do surfaces send rays on at all? Else there is one level, and no tree is kept.
-const bool kBranches = (specEffects & (kEffect_reflection | kEffect_refraction | kEffect_transparency)) != 0u;
+const bool kBranches = (specVariant & kVariantTree) != 0u;
 
 // What earlier dispatches have left.
 HitRecord hitOf(uint node) {
@@ -33,10 +34,21 @@ RayRecord rayRecordOf(uint node) {
 // as in the rasteriser. Mirrored and refracted rays meet bodies from inside too.
 bool goesStraight(uint kind) { return kind == kRayPrimary || kind == kRayPassThrough; }
 
-// Ray of this invocation within its level: all are walked through, or only the groups of 64 that packets gave up.
+const uint kNoRay = 0xffffffffu;
+
+// Ray of the level at a place of what the kernel works on: the level itself, or a queue of it.
+uint rayAtPlace(uint place) {
+  if ((specVariant & kVariantQueue) == 0u) return place < pushed.nodeCount ? place : kNoRay;
+  bool there = place < queues[4u * pushed.hitClass + 3u];
+  uint ray = queues[4u * kHitClasses + pushed.hitClass * pushed.nodeCapacity + (there ? place : 0u)];
+  return there ? ray : kNoRay;
+}
+
+// Ray of this invocation within its level, or kNoRay: all are walked through, or only the groups of 64 that packets
+// gave up.
 uint rayOfInvocation() {
   uint group = gl_WorkGroupID.x;
   if ((specVariant & kVariantRest) != 0u) group = rest[kRestGroups + group];
-  return group * 64u + gl_LocalInvocationID.x;
+  return rayAtPlace(group * 64u + gl_LocalInvocationID.x);
 }
 #endif

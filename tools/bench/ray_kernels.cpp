@@ -21,6 +21,7 @@ gpu::Buffer texels(const gpu::Device& device, const char* name, std::uint64_t co
 
 RenderSettings withFamily(RenderSettings settings, KernelFamily family) {
   settings.kernel = family;
+  settings.hitQueues = HitQueues::off;                  // each kernel by itself
   settings.maxDepth = std::max(settings.maxDepth, 1u);  // a kernel for secondary rays is wanted too
   return settings;
 }
@@ -67,6 +68,8 @@ void RayKernels::bind(gpu::BindingSet& set, const gpu::Buffer& rays, const gpu::
   set.set(kBindVisibility, visibility_);
   set.set(kBindCounters, counters_);
   set.set(kBindRest, rest_);
+  set.set(kBindQueues, dummy_);
+  set.set(kBindHitClasses, nodes_);
   set.set(kBindSampleColor, dummy_);
   set.set(kBindAovs, dummy_);
 }
@@ -86,7 +89,7 @@ double RayKernels::run(KernelPipelines& kernels, const std::string& kernel, cons
   commands_.begin();
   commands_.barrier();
   commands_.beginSpan("kernel");
-  commands_.bind(kernels.get(kernel), set);
+  commands_.bind(kernels.get({kernel}), set);
   commands_.push(push);
   commands_.dispatch(groups);
   commands_.endSpan();
