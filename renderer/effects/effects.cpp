@@ -118,7 +118,18 @@ class Analysis {
     const auto isDrawn = [&](const MeshInstance& m) { return !traced_ || !m.replacedByShape; };
     const auto mesh = std::find_if(scene_.instances.begin(), scene_.instances.end(), isDrawn);
     const bool meshes = mesh != scene_.instances.end() || (!traced_ && !scene_.shapes.empty());
+    turnedShapes();
     add(Effect::triangles, "triangles", meshes, meshes ? "meshes are drawn" : "no mesh is drawn");
+  }
+
+  // Else a shape's own coordinates are those of the scene, but for where it stands.
+  void turnedShapes() {
+    const auto turned = [](const ShapeInstance& s) { return glm::dmat3(s.worldFromObject) != glm::dmat3(1.0); };
+    const auto found = traced_ ? std::find_if(scene_.shapes.begin(), scene_.shapes.end(), turned) : scene_.shapes.end();
+    const bool any = found != scene_.shapes.end();
+    const auto index = static_cast<std::size_t>(found - scene_.shapes.begin());
+    add(Effect::turnedShapes, "turnedShapes", any,
+        any ? quoted("node", found->name, index) + " is turned or scaled" : "no analytic shape is turned or scaled");
   }
 
   void materialRules() {

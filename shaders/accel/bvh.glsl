@@ -47,10 +47,17 @@ PrimitiveTexels fetchPrimitive(uint slot) {
   return PrimitiveTexels(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), a.w, b.w, c.w);
 }
 
+// A shape's own coordinates and the scene's; where no shape is turned or scaled they differ by its center alone. The
+// zero makes -0 into 0, as the product with a matrix does.
+vec3 objectVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.objectFromRender * v : v + 0.0; }
+vec3 renderVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.renderFromObject * v : v + 0.0; }
+// Normals go by the transpose of the inverse; cofactors are that up to a positive factor and the determinant's sign.
+vec3 renderNormal(ShapeRecord s, vec3 n) { return CL_HAS(turnedShapes) ? n * s.objectFromRender : n + 0.0; }
+
 ShapeHit hitShapeInstance(uint index, Ray ray) {
   ShapeRecord s = shapeOf(index);
-  return hitShape(s.kind, s.params, s.objectFromRender * (ray.origin - s.renderCenter),
-                  s.objectFromRender * ray.direction, ray.tMin, ray.tMax);
+  return hitShape(s.kind, s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction),
+                  ray.tMin, ray.tMax);
 }
 
 // What materials say of a surface that may be cut away or transparent; defined above this room (trace/passed_light.glsl).
@@ -64,8 +71,8 @@ bool isOneSided(uint drawId);
 // other kinds' code is not inlined once more here.
 ShapeHit hitUnboundedShape(uint index, Ray ray) {
   ShapeRecord s = shapeOf(index);
-  return hitPlane(s.params, s.objectFromRender * (ray.origin - s.renderCenter), s.objectFromRender * ray.direction,
-                  ray.tMin, ray.tMax);
+  return hitPlane(s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction), ray.tMin,
+                  ray.tMax);
 }
 
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
@@ -96,7 +103,7 @@ void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
   uint shape = p.id & ~kPrimitiveIsShape;
   float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
   ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
-  bool back = dot(h.n, shapeOf(shape).objectFromRender * ray.direction) > 0.0;
+  bool back = dot(h.n, objectVector(shapeOf(shape), ray.direction)) > 0.0;
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
   if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), p.id);
 }
@@ -106,7 +113,7 @@ void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
     float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
     ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
     uint id = kPrimitiveIsShape | i;
-    bool cut = cutBackFaces && isOneSided(shapeOf(i).drawId) && dot(s.n, shapeOf(i).objectFromRender * ray.direction) > 0.0;
+    bool cut = cutBackFaces && isOneSided(shapeOf(i).drawId) && dot(s.n, objectVector(shapeOf(i), ray.direction)) > 0.0;
     if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
   }
 }

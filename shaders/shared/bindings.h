@@ -20,7 +20,8 @@
   X(11, refraction)              \
   X(12, absorption)              \
   X(13, shapes)                  \
-  X(14, triangles)
+  X(14, triangles)               \
+  X(15, turnedShapes)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord

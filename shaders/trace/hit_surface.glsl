@@ -60,14 +60,13 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
   ShapeHit found = hitShapeInstance(hit.primitive & ~kHitShape, ray);
   DrawRecord draw = drawOf(shape.drawId);
   HitSurface s;
-  vec3 fromCenter = shape.renderFromObject * found.p;
+  vec3 fromCenter = renderVector(shape, found.p);
   s.at.renderPos = shape.renderCenter + fromCenter;
   // Scale of the shape's own coordinates, not of the hit point: near the origin of a huge sphere the point is small but
   // its error is not. Five roundings: two of the point on the shape, three of the transform; one more of the sum.
   float extent = maxComponent(abs(fromCenter)) + maxComponent(abs(shape.renderCenter));
   s.positionError = vec3(gammaBound(6.0) * extent);
-  // Normals go by the transpose of the inverse; cofactors are that up to a positive factor and the determinant's sign.
-  s.at.geometricNormal = safeNormalize(found.n * shape.objectFromRender, vec3(0.0, 1.0, 0.0));
+  s.at.geometricNormal = safeNormalize(renderNormal(shape, found.n), vec3(0.0, 1.0, 0.0));
   s.at.normal = s.at.geometricNormal;
   s.at.tangent = vec4(0.0);
   s.at.uv0 = found.uv;
