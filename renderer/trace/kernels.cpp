@@ -20,8 +20,9 @@ constexpr std::uint32_t kPacketLanes = 8;  // kLanes of shaders/accel/packet.gls
 constexpr std::uint32_t kLightBatch = 16;
 
 // A kernel may be asked for any of these together.
-constexpr std::uint32_t kVariants[] = {kVariantOrthographic, kVariantManyLights, kVariantRest, kVariantAovs,
-                                       kVariantInstances};
+constexpr std::uint32_t kVariants[] = {kVariantOrthographic, kVariantManyLights,  kVariantRest,
+                                       kVariantAovs,         kVariantTree,        kVariantQueue,
+                                       kVariantFewShapes,    kVariantSharedLoads, kVariantInstances};
 constexpr bool areApart() {
   std::uint32_t seen = 0;
   for (const std::uint32_t bit : kVariants) {
@@ -121,10 +122,17 @@ std::uint32_t lightBatch(std::uint32_t lightCount) { return std::clamp(lightCoun
 
 namespace {
 
-std::uint32_t variantOf(const Scene& scene, const Plan& plan, const RenderSettings& settings) {
-  const bool orthographic = scene.cameras[static_cast<std::size_t>(settings.camera)].orthographic;
-  return (orthographic ? kVariantOrthographic : 0u) | (scene.lights.size() > kLightBatch ? kVariantManyLights : 0u) |
-         (branches(plan) ? kVariantTree : 0u);
+std::uint32_t variantOf(const Scene& scene, const Plan& plan, const RenderSettings& settings,
+                        const KernelChoice& choice) {
+  const auto bounded = [](const ShapeInstance& s) { return s.kind != ShapeKind::plane; };
+  const auto shapes = std::count_if(scene.shapes.begin(), scene.shapes.end(), bounded);
+  std::uint32_t variant = 0;
+  if (scene.cameras[static_cast<std::size_t>(settings.camera)].orthographic) variant |= kVariantOrthographic;
+  if (scene.lights.size() > kLightBatch) variant |= kVariantManyLights;
+  if (branches(plan)) variant |= kVariantTree;
+  if (shapes <= kMostBoxedShapes) variant |= kVariantFewShapes;
+  if (choice.family == KernelFamily::packet) variant |= kVariantSharedLoads;
+  return variant;
 }
 
 gpu::BindingLayout layoutOn(const gpu::Device& device) {
@@ -141,8 +149,8 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
                                  const RenderSettings& settings, bool sharedTrees)
     : device_(device),
       plan_(plan),
-      variant_(variantOf(scene, plan, settings) | (sharedTrees ? kVariantInstances : 0u)),
       choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
+      variant_(variantOf(scene, plan, settings, choice_) | (sharedTrees ? kVariantInstances : 0u)),
       classes_(classifyHits(scene, plan, settings)),
       layout_(layoutOn(device)),
       warmUp_(device, layout_) {
@@ -195,8 +203,8 @@ bool KernelPipelines::serve(const gpu::DeviceInfo& device, const Scene& scene, c
                             const RenderSettings& settings, bool sharedTrees) const {
   const bool samePlan = plan.models == plan_.models && plan.lights == plan_.lights && plan.shapes == plan_.shapes &&
                         plan.effects == plan_.effects;
-  const std::uint32_t variant = variantOf(scene, plan, settings) | (sharedTrees ? kVariantInstances : 0u);
-  return samePlan && variant == variant_ && chooseKernels(device, plan, settings, sharedTrees) == choice_ &&
+  const std::uint32_t variant = variantOf(scene, plan, settings, choice_) | (sharedTrees ? kVariantInstances : 0u);
+  return samePlan && chooseKernels(device, plan, settings, sharedTrees) == choice_ && variant == variant_ &&
          classifyHits(scene, plan, settings) == classes_;
 }
 

@@ -90,8 +90,8 @@ class KernelPipelines {
 
   const gpu::Device& device_;
   Plan plan_;
-  std::uint32_t variant_;
   KernelChoice choice_;
+  std::uint32_t variant_;
   HitClasses classes_;
   gpu::BindingLayout layout_;
   std::map<KernelKey, std::future<gpu::ComputePipeline>> pending_;

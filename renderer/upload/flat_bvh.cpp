@@ -45,9 +45,8 @@ std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const Re
                              std::uint32_t drawId) {
   const shared::DrawRecord& draw = flat.draws[drawId];
   const Material& m = scene.materials[draw.materialId];
-  const bool oneSided = !m.doubleSided && settings.twoSided != TwoSided::always;
-  std::uint32_t flags = oneSided ? shared::kPrimitiveCutsBackFaces : 0u;
-  if (m.alphaMode == AlphaMode::mask || isTransparent(m)) flags |= shared::kPrimitiveMayPass;
+  std::uint32_t flags = surfaceFlags(m);
+  if (settings.twoSided == TwoSided::always) flags &= ~shared::kPrimitiveCutsBackFaces;
   if (draw.flags & shared::kDrawFlipsWinding) flags |= shared::kPrimitiveFlipsWinding;
   return flags;
 }

@@ -162,6 +162,7 @@ class Flattener {
     record.renderFromObject = glm::mat3(place.linear);
     record.objectFromRender = glm::mat3(inverse);
     record.params = shape.params;
+    record.flags = surfaceFlags(scene_.materials[static_cast<std::size_t>(shape.material)]);
     flat_.shapes.push_back(record);
     flat_.draws.push_back({flat_.triangleCount(), 0u, static_cast<std::uint32_t>(shape.material), shape.instanceId, 0u,
                            place.mirrors ? shared::kDrawFlipsWinding : 0u, 0u, 0u});
@@ -200,6 +201,11 @@ class Flattener {
 };
 
 }  // namespace
+
+std::uint32_t surfaceFlags(const Material& m) {
+  const bool mayPass = m.alphaMode == AlphaMode::mask || isTransparent(m);
+  return (m.doubleSided ? 0u : shared::kPrimitiveCutsBackFaces) | (mayPass ? shared::kPrimitiveMayPass : 0u);
+}
 
 FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes) {
   return Flattener(scene, origin, analyticShapes).run();

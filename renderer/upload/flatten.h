@@ -35,6 +35,9 @@ struct FlatScene {
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
+// What a material makes of its surfaces: bits of kPrimitive*.
+std::uint32_t surfaceFlags(const Material& material);
+
 // `analyticShapes`: keep shapes as such and leave out the meshes that they replace (rays); else draw meshes,
 // tessellating shapes that have none (raster). `origin` is the world position that becomes zero. DeviceError beyond
 // 2^31 indices.

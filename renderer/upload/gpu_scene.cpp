@@ -1,5 +1,6 @@
 #include "upload/gpu_scene.h"
 
+#include <limits>
 #include <utility>
 
 #include "bindings.h"
@@ -7,6 +8,22 @@
 namespace crosslight {
 
 using namespace shared;
+
+namespace {
+
+// In fours, the last of which are filled up with boxes that nothing enters.
+std::vector<glm::vec4> boxTexels(const std::vector<Bounds>& boxes) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  std::vector<glm::vec4> texels;
+  for (const Bounds& box : boxes) {
+    texels.emplace_back(box.lower, 0.0f);
+    texels.emplace_back(box.upper, 0.0f);
+  }
+  while (texels.size() % 8 != 0) texels.emplace_back(texels.size() % 2 == 0 ? kFar : -kFar);
+  return texels;
+}
+
+}  // namespace
 
 GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
                    const FlatBvh* bvh)
@@ -36,6 +53,7 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   lights_ = gpu::Buffer::of(device, "lights", makeLightRecords(scene, flat_.origin), kRecords);
   draws_ = gpu::Buffer::of(device, "draws", flat_.draws, kRecords);
   shapes_ = gpu::Buffer::of(device, "shapes", flat_.shapes, kRecords);
+  shapeBoxes_ = gpu::Buffer::of(device, "boxes of shapes", boxTexels(flat_.shapeBounds), gpu::useUniformTexel);
   {
     const MaterialRecords materials = makeMaterialRecords(scene);
     materials_ = gpu::Buffer::of(device, "materials", materials.materials, kRecords);
@@ -55,6 +73,7 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
 void GpuScene::setSample(const glm::vec2& sampleOffset) {
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
+  frame.boundedShapeCount = static_cast<std::uint32_t>(flat_.shapeBounds.size());
   frame.shapeRoot = shapeRoot_;
   frame.meshDrawCount = flat_.meshDrawCount;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));
@@ -80,6 +99,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindLightTexels, lights_);
   set.set(kBindDrawTexels, draws_);
   set.set(kBindShapeTexels, shapes_);
+  set.set(kBindShapeBoxes, shapeBoxes_);
 }
 
 std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots,
@@ -103,7 +123,8 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindMaterialTexels, texelBufferUint4},
                                      {kBindLightTexels, texelBufferUint4},
                                      {kBindDrawTexels, texelBufferUint4},
-                                     {kBindShapeTexels, texelBufferUint4}};
+                                     {kBindShapeTexels, texelBufferUint4},
+                                     {kBindShapeBoxes, texelBufferUint4}};
   for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});
   for (const std::uint32_t slot : moreTexelSlots) bindings.push_back({slot, texelBufferUint4});
   return bindings;

@@ -45,8 +45,8 @@ class GpuScene {
   const RenderSettings& settings_;
   FlatScene flat_;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
-  gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, texels_, nodes_,
-      primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
+  gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,
+      nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
 };
 
 // The slots that GpuScene binds, for layouts, and buffers of the technique's own: storage, or texels of 4 words.

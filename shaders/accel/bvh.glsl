@@ -54,8 +54,7 @@ vec3 renderVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.rende
 // Normals go by the transpose of the inverse; cofactors are that up to a positive factor and the determinant's sign.
 vec3 renderNormal(ShapeRecord s, vec3 n) { return CL_HAS(turnedShapes) ? n * s.objectFromRender : n + 0.0; }
 
-ShapeHit hitShapeInstance(uint index, Ray ray) {
-  ShapeRecord s = shapeOf(index);
+ShapeHit hitShapeInstance(ShapeRecord s, Ray ray) {
   return hitShape(s.kind, s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction),
                   ray.tMin, ray.tMax);
 }
@@ -69,8 +68,7 @@ bool isOneSided(uint drawId);
 
 // Shapes without bounds stand outside of the tree, first in the list. Planes are the only ones (the host checks), so the
 // other kinds' code is not inlined once more here.
-ShapeHit hitUnboundedShape(uint index, Ray ray) {
-  ShapeRecord s = shapeOf(index);
+ShapeHit hitUnboundedShape(ShapeRecord s, Ray ray) {
   return hitPlane(s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction), ray.tMin,
                   ray.tMax);
 }
@@ -78,13 +76,17 @@ ShapeHit hitUnboundedShape(uint index, Ray ray) {
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
 bool isCloser(float t, uint id, float bestT, uint bestId) { return t < bestT || (t == bestT && id < bestId); }
 
+uint shapeInSlot(uint slot) { return texelFetch(bvhPrimitives, int(3u * slot)).w & ~kPrimitiveIsShape; }
+
 struct Closest {
   HitRecord hit;
   uint id;
 };
 
+float boundOf(Closest best, Ray ray) { return best.hit.primitive == kNoHit ? ray.tMax : best.hit.t; }
+
 void considerFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
-  float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
+  float tMax = boundOf(best, ray);
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
   bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
@@ -98,23 +100,25 @@ void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, ino
   considerFetched(fetchPrimitive(slot), slot, ray, shear, cutBackFaces, best);
 }
 
-void considerShape(uint slot, Ray ray, bool cutBackFaces, inout Closest best) {
-  PrimitiveTexels p = fetchPrimitive(slot);
-  uint shape = p.id & ~kPrimitiveIsShape;
-  float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-  ShapeHit h = hitShapeInstance(shape, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
-  bool back = dot(h.n, objectVector(shapeOf(shape), ray.direction)) > 0.0;
-  bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
-  if (h.hit && !cut && isCloser(h.t, p.id, tMax, best.id)) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), p.id);
+void considerShapeHit(ShapeRecord s, ShapeHit h, uint shape, Ray ray, bool cutBackFaces, inout Closest best) {
+  uint id = kPrimitiveIsShape | shape;
+  bool cuts = cutBackFaces && frame.twoSided == 0u && (s.flags & kPrimitiveCutsBackFaces) != 0u;
+  bool cut = cuts && dot(h.n, objectVector(s, ray.direction)) > 0.0;
+  bool closer = h.hit && !cut && isCloser(h.t, id, boundOf(best, ray), best.id);
+  if (closer) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), id);
+}
+
+Ray endingAt(Ray ray, float tMax) { return Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from); }
+
+void considerShape(uint shape, Ray ray, bool cutBackFaces, inout Closest best) {
+  ShapeRecord s = shapeOf(shape);
+  considerShapeHit(s, hitShapeInstance(s, endingAt(ray, boundOf(best, ray))), shape, ray, cutBackFaces, best);
 }
 
 void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
   for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
-    float tMax = best.hit.primitive == kNoHit ? ray.tMax : best.hit.t;
-    ShapeHit s = hitUnboundedShape(i, Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from));
-    uint id = kPrimitiveIsShape | i;
-    bool cut = cutBackFaces && isOneSided(shapeOf(i).drawId) && dot(s.n, objectVector(shapeOf(i), ray.direction)) > 0.0;
-    if (s.hit && !cut && isCloser(s.t, id, tMax, best.id)) best = Closest(HitRecord(s.t, kHitShape | i, 0.0, 0.0), id);
+    ShapeRecord s = shapeOf(i);
+    considerShapeHit(s, hitUnboundedShape(s, endingAt(ray, boundOf(best, ray))), i, ray, cutBackFaces, best);
   }
 }
 
@@ -192,8 +196,6 @@ void countCapped(Walk walk) {
   if (walk.steps >= kLargestWalk) atomicAdd(counters[kCounterCapped], 1u);
 }
 
-float boundOf(Closest best, Ray ray) { return best.hit.primitive == kNoHit ? ray.tMax : best.hit.t; }
-
 // Boxes are searched to a little behind the nearest hit: of triangles that meet in an edge or lie in one plane, one may
 // be nearer than another, or of a lower id, while the box's distance rounds to beyond the other's. A box's is off by
 // gamma_3, a triangle's by gamma_16 unless it is seen along its edge. Without it the tree decides who is seen.
@@ -256,7 +258,7 @@ HitRecord closestShape(Ray ray, bool cutBackFaces, HitRecord sofar) {
     uint slot = walk.next & kBvhFirstMask;
     uint end = slot + count;
     do {
-      if (slot < end) considerShape(slot, ray, cutBackFaces, best);
+      if (slot < end) considerShape(shapeInSlot(slot), ray, cutBackFaces, best);
       ++slot;
     } while (slot < end);
     leaveLeaf(count, walk);
@@ -269,62 +271,72 @@ float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
   return lightPassedFetched(fetchPrimitive(slot), slot, ray, shear);
 }
 
-float lightPassedShape(uint slot, Ray ray) {
-  PrimitiveTexels p = fetchPrimitive(slot);
-  ShapeHit h = hitShapeInstance(p.id & ~kPrimitiveIsShape, ray);
-  float passed = (p.flags & kPrimitiveMayPass) != 0u ? passedByShape(p.drawId, h.uv) : 0.0;
+bool mayPass(ShapeRecord s) {
+  return (CL_HAS(alphaMask) || CL_HAS(transparency)) && (s.flags & kPrimitiveMayPass) != 0u;
+}
+
+float lightPassedShape(uint shape, Ray ray) {
+  ShapeRecord s = shapeOf(shape);
+  ShapeHit h = hitShapeInstance(s, ray);
+  float passed = 0.0;
+  if (mayPass(s)) passed = passedByShape(s.drawId, h.uv);
   return h.hit ? passed : 1.0;
 }
 
 float lightPassedUnbounded(Ray ray) {
   float passed = 1.0;
   for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
-    ShapeHit s = hitUnboundedShape(i, ray);
-    if (s.hit) passed *= passedByShape(shapeOf(i).drawId, s.uv);
+    ShapeRecord shape = shapeOf(i);
+    ShapeHit h = hitUnboundedShape(shape, ray);
+    float through = 0.0;
+    if (mayPass(shape)) through = passedByShape(shape.drawId, h.uv);
+    if (h.hit) passed *= through;
   }
   return passed;
 }
 
 // Share of light that travels the whole ray: the product over all surfaces in between. Transparent shadows have no
 // color and no refraction: what passes goes straight on.
-float lightPassed(Ray ray) {
+float lightPassedTriangles(Ray ray) {
   float passed = 1.0;
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
-  Walk walk = Walk(CL_HAS(triangles) ? 0u : kWalkDone, 0, 0u);
-  if (CL_HAS(triangles) && kInstances) passed = lightPassedInstances(ray);
-  if (CL_HAS(triangles) && !kInstances) {
+  if (kInstances) return lightPassedInstances(ray);
+  Walk walk = Walk(0u, 0, 0u);
+  do {
+    walkToLeaf(w, ray.tMax, walk);
+    uint count = leafCount(walk);
+    uint slot = walk.next & kBvhFirstMask;
+    uint end = slot + count;
     do {
-      walkToLeaf(w, ray.tMax, walk);
-      uint count = leafCount(walk);
-      uint slot = walk.next & kBvhFirstMask;
-      uint end = slot + count;
-      do {
-        if (slot < end) passed *= lightPassedTriangle(slot, ray, shear);
-        ++slot;
-      } while (slot < end);
-      leaveLeaf(count, walk);
-      if (passed == 0.0) walk.next = kWalkDone;
-    } while (goesOn(walk));
-  }
+      if (slot < end) passed *= lightPassedTriangle(slot, ray, shear);
+      ++slot;
+    } while (slot < end);
+    leaveLeaf(count, walk);
+    if (passed == 0.0) walk.next = kWalkDone;
+  } while (goesOn(walk));
   countCapped(walk);
-  if (CL_HAS(shapes)) {
-    passed *= lightPassedUnbounded(ray);
-    walk = Walk(passed == 0.0 ? kWalkDone : frame.shapeRoot, 0, 0u);
+  return passed;
+}
+
+// `passed`: what triangles leave.
+float lightPassedShapesByTree(Ray ray, float passed) {
+  passed *= lightPassedUnbounded(ray);
+  WalkRay w = walkRayOf(ray);
+  Walk walk = Walk(passed == 0.0 ? kWalkDone : frame.shapeRoot, 0, 0u);
+  do {
+    walkToLeaf(w, ray.tMax, walk);
+    uint count = leafCount(walk);
+    uint slot = walk.next & kBvhFirstMask;
+    uint end = slot + count;
     do {
-      walkToLeaf(w, ray.tMax, walk);
-      uint count = leafCount(walk);
-      uint slot = walk.next & kBvhFirstMask;
-      uint end = slot + count;
-      do {
-        if (slot < end) passed *= lightPassedShape(slot, ray);
-        ++slot;
-      } while (slot < end);
-      leaveLeaf(count, walk);
-      if (passed == 0.0) walk.next = kWalkDone;
-    } while (goesOn(walk));
-    countCapped(walk);
-  }
+      if (slot < end) passed *= lightPassedShape(shapeInSlot(slot), ray);
+      ++slot;
+    } while (slot < end);
+    leaveLeaf(count, walk);
+    if (passed == 0.0) walk.next = kWalkDone;
+  } while (goesOn(walk));
+  countCapped(walk);
   return passed;
 }
 #endif

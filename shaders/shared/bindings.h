@@ -42,6 +42,7 @@ CL_CONST uint kBindCounters = 14;        // uint[kCounterCount]
 CL_CONST uint kBindSampleColor = 15;     // vec4[pixels of the band]: one sample of the picture
 CL_CONST uint kBindAovs = 16;            // AovRecord[pixels of the band], or one dummy
 CL_CONST uint kBindFilm = 17;            // FilmPixel[pixels of the band]
+CL_CONST uint kBindFilmParts = 18;       // FilmParts[pixels of the band], or one dummy
 CL_CONST uint kBindWideNodes = 19;       // texel buffer, RGBA32UI, 16 per node
 CL_CONST uint kBindMaterialTexels = 20;  // the records once more, as RGBA32UI texels: one load brings 16 bytes
 CL_CONST uint kBindLightTexels = 21;
@@ -50,34 +51,37 @@ CL_CONST uint kBindShapeTexels = 23;
 CL_CONST uint kBindHitTexels = 24;  // kBindHits, kBindRays, kBindRayNodes, to be read: RGBA32UI
 CL_CONST uint kBindRayTexels = 25;
 CL_CONST uint kBindNodeTexels = 26;
-CL_CONST uint kBindQuadNodes = 29;          // texel buffer, RGBA32UI, 4 per node
+CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
+CL_CONST uint kBindRest = 28;       // groups whose packet gave up, behind the dispatch arguments that count them
+CL_CONST uint kBindQuadNodes = 29;  // texel buffer, RGBA32UI, 4 per node
+CL_CONST uint kBindQueues = 30;  // hits of the level by class: arguments of indirect dispatches, then rays of the level
+CL_CONST uint kBindHitClasses = 31;         // texel buffer, RGBA32UI, one per material: class as a mesh's, as a shape's
 CL_CONST uint kBindInstances = 32;          // texel buffer, RGBA32UI, 5 per InstanceRecord
 CL_CONST uint kBindInstanceTriangles = 33;  // texel buffer, RGBA32UI, 2 per InstanceTriangle
-CL_CONST uint kBindRest = 28;       // groups whose packet gave up, behind the dispatch arguments that count them
-CL_CONST uint kBindRayNodes = 27;   // RayNode[], one per ray
-CL_CONST uint kBindFilmParts = 18;  // FilmParts[pixels of the band], or one dummy
+CL_CONST uint kBindShapeBoxes = 34;  // texel buffer, RGBA32UI, 2 per bounded shape, in fours: lower and upper corner
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
-CL_CONST uint kBindQueues = 30;  // hits of the level by class: arguments of indirect dispatches, then rays of the level
-CL_CONST uint kBindHitClasses = 31;  // texel buffer, RGBA32UI, one per material: class as a mesh's, as a shape's
-CL_CONST uint kBindFilmParts = 18;   // FilmParts[pixels of the band], or one dummy
 
 // Specialisation constants; their defaults in the shaders are "everything".
-CL_CONST uint kSpecModels = 0;                 // bit i: illumination model i may occur
-CL_CONST uint kSpecLights = 1;                 // bit i: light type i may occur
-CL_CONST uint kSpecShapes = 2;                 // bit i: shape kind i may occur
-CL_CONST uint kSpecEffects = 3;                // bits of CL_EFFECTS
-CL_CONST uint kSpecVariant = 4;                // of one shader; documented there
-CL_CONST uint kVariantClampVertexColors = 1u;  // bit 0 of the raster methods' variant
-CL_CONST uint kVariantOrthographic = 2u;       // camera kernels: rays do not begin at one point
-CL_CONST uint kVariantFilmParts = 1u;          // accumulate: FilmParts too
-CL_CONST uint kVariantRest = 8u;               // per-lane kernels: only the groups that kBindRest lists
-CL_CONST uint kVariantInstances = 64u;         // kernels of rays: instances share trees; hits name flattened triangles
-CL_CONST uint kVariantManyLights = 4u;         // shade: lights come in several batches
-CL_CONST uint kVariantAovs = 16u;              // shade: the primary level writes AovRecords
-
-CL_CONST uint kVariantTree = 32u;   // ray kernels: surfaces send rays on, nodes are kept
-CL_CONST uint kVariantQueue = 64u;  // ray kernels: only the rays in the queue of TracePush::hitClass
+CL_CONST uint kSpecModels = 0;   // bit i: illumination model i may occur
+CL_CONST uint kSpecLights = 1;   // bit i: light type i may occur
+CL_CONST uint kSpecShapes = 2;   // bit i: shape kind i may occur
+CL_CONST uint kSpecEffects = 3;  // bits of CL_EFFECTS
+CL_CONST uint kSpecVariant = 4;  // of one shader; documented there
+// Of raster methods (bit 0) and of accumulate.
+CL_CONST uint kVariantClampVertexColors = 1u;
+CL_CONST uint kVariantFilmParts = 1u;  // FilmParts too
+// Of the kernels of rays, of which one may have several.
+CL_CONST uint kVariantOrthographic = 2u;   // rays of the camera do not begin at one point
+CL_CONST uint kVariantManyLights = 4u;     // lights come in several batches
+CL_CONST uint kVariantRest = 8u;           // only the groups that kBindRest lists
+CL_CONST uint kVariantAovs = 16u;          // shade: the primary level writes AovRecords
+CL_CONST uint kVariantTree = 32u;          // surfaces send rays on, nodes are kept
+CL_CONST uint kVariantQueue = 64u;         // only the rays in the queue of TracePush::hitClass
+CL_CONST uint kVariantFewShapes = 128u;    // a list of the shapes' boxes instead of a tree
+CL_CONST uint kVariantSharedLoads = 256u;  // subgroups of 8 lanes may load together
+CL_CONST uint kVariantInstances = 512u;    // instances share trees; hits name flattened triangles
+CL_CONST uint kMostBoxedShapes = 32u;      // bounded ones at most for kVariantFewShapes: one bit each
 
 // kBindQueues: per class the three words of an indirect dispatch and how many there are; then per class as many words
 // as there are nodes, rays by their place in the level.

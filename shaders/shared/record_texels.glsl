@@ -29,7 +29,7 @@ ShapeRecord shapeOf(uint shape) {
   return ShapeRecord(a.x, a.y, asVec3(a.z, a.w, b.x),
                      mat3(asVec3(b.y, b.z, b.w), asVec3(c.x, c.y, c.z), asVec3(c.w, d.x, d.y)),
                      mat3(asVec3(d.z, d.w, e.x), asVec3(e.y, e.z, e.w), asVec3(f.x, f.y, f.z)),
-                     asVec4(f.w, g.x, g.y, g.z), 0u);
+                     asVec4(f.w, g.x, g.y, g.z), g.w);
 }
 
 // A slot is ten words: every other one begins in the middle of a texel.

@@ -119,7 +119,7 @@ struct ShapeRecord {
   mat3 objectFromRender;
   vec4 params;  // sphere: radius; disk: radius; box: size xyz; cylinder, cone: radius, height; torus: center circle's
                 // radius, tube's radius
-  uint unused;
+  uint flags;   // kPrimitive*
 };
 CL_SIZE(ShapeRecord, 112)
 
@@ -138,13 +138,14 @@ struct FrameRecord {
   uvec2 resolution;     // pixels
   uint lightCount;
   uint unboundedShapeCount;  // planes: the first ones in the shape list, outside the BVH
+  uint boundedShapeCount;    // the others
   uint shapeRoot;            // node at which the shapes' tree begins; the triangles' begins at 0
   uint twoSided;             // 1: light and show both sides of every surface
   uint meshDrawCount;        // DrawRecords of triangles: the first ones
   vec3 ambient;              // Ia
   vec3 background;
 };
-CL_SIZE(FrameRecord, 184)
+CL_SIZE(FrameRecord, 188)
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {

@@ -8,14 +8,16 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/scene_bindings.glsl"
-#include "math/numeric.glsl"
 #include "trace/tree.glsl"
+#include "trace/passed_light.glsl"
 #include "trace/camera.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
 layout(set = 0, binding = kBindHitClasses) uniform usamplerBuffer hitClassTexels;
+
+float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
 struct Children {
   uint reflected;
@@ -29,6 +31,7 @@ uint classOf(HitRecord hit) {
   bool shape = CL_HAS(shapes) && (!CL_HAS(triangles) || (hit.primitive & kHitShape) != 0u);
   uint draw;
   if (shape) draw = texelFetch(shapeTexels, int(7u * (hit.primitive & ~kHitShape))).y;
+  else if (kInstances) draw = drawOfTriangle(hit.primitive);
   else draw = texelFetch(bvhPrimitives, int(3u * hit.primitive + 1u)).w;
   uvec4 classes = texelFetch(hitClassTexels, int(texelFetch(drawTexels, int(2u * draw)).z));
   return shape ? classes.y : classes.x;

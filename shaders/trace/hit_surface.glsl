@@ -57,7 +57,7 @@ HitSurface triangleSurface(HitRecord hit) {
 
 HitSurface shapeSurface(HitRecord hit, Ray ray) {
   ShapeRecord shape = shapeOf(hit.primitive & ~kHitShape);
-  ShapeHit found = hitShapeInstance(hit.primitive & ~kHitShape, ray);
+  ShapeHit found = hitShapeInstance(shape, ray);
   DrawRecord draw = drawOf(shape.drawId);
   HitSurface s;
   vec3 fromCenter = renderVector(shape, found.p);

@@ -6,29 +6,40 @@
 #include "trace/tree.glsl"
 #include "trace/shadow_ray.glsl"
 #include "trace/camera.glsl"
+#include "accel/few_shapes.glsl"
 
 layout(local_size_x = 64) in;
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
+const ShadowRay kNoShadowRay = ShadowRay(Ray(vec3(0.0), vec3(1.0), 0.0, -1.0, kNoHit), false);
+
+ShadowRay shadowRayOf(uint ray) {
+  uint node = pushed.firstNode + ray;
+  HitRecord hit = hitOf(node);
+  if (hit.primitive == kNoHit) return kNoShadowRay;
+  HitSurface s = surfaceOfHit(hit, rayOf(rayOfNode(node, cameraPlace(ray))), false);
+  return shadowRay(s.at.renderPos, s.positionError, s.at.geometricNormal, s.slot,
+                   lightOf(pushed.firstLight + pushed.lightInBatch));
+}
+
+float lightPassed(Ray ray, uint shapes) {
+  float passed = 1.0;
+  if (CL_HAS(triangles)) passed = lightPassedTriangles(ray);
+  if (!CL_HAS(shapes)) return passed;
+  return kFewShapes ? lightPassedShapes(ray, passed, shapes) : lightPassedShapesByTree(ray, passed);
+}
+
 void main() {
   uint ray = rayOfInvocation();
   bool inLevel = ray != kNoRay;
+  ShadowRay to = kNoShadowRay;
+  if (inLevel) to = shadowRayOf(ray);
+  uint shapes = kFewShapes && CL_HAS(shapes) ? shapesAhead(to.counts ? to.ray : kNoShadowRay.ray) : 0u;
   float visible = 1.0;
-  bool traced = false;
-  if (inLevel) {
-    uint node = pushed.firstNode + ray;
-    HitRecord hit = hitOf(node);
-    if (hit.primitive != kNoHit) {
-      HitSurface s = surfaceOfHit(hit, rayOf(rayOfNode(node, cameraPlace(ray))), false);
-      ShadowRay to = shadowRay(s.at.renderPos, s.positionError, s.at.geometricNormal, s.slot,
-                               lightOf(pushed.firstLight + pushed.lightInBatch));
-      traced = to.counts;
-      if (traced) visible = lightPassed(to.ray);
-    }
-    visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = visible;
-  }
+  if (to.counts) visible = lightPassed(to.ray, shapes);
+  if (inLevel) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = visible;
   bool counted = (specVariant & kVariantRest) == 0u;  // else by the packet
-  uint count = subgroupAdd(traced && counted ? 1u : 0u);
+  uint count = subgroupAdd(to.counts && counted ? 1u : 0u);
   if (subgroupElect() && count > 0u) atomicAdd(counters[kCounterShadowRays], count);
 }

@@ -6,16 +6,26 @@
 #include "trace/tree.glsl"
 #include "trace/passed_light.glsl"
 #include "trace/camera.glsl"
+#include "accel/few_shapes.glsl"
 
 layout(local_size_x = 64) in;
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
 void main() {
-  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
-  uint node = pushed.firstNode + gl_GlobalInvocationID.x;
-  RayRecord ray = rayOfNode(node, cameraPlace(gl_GlobalInvocationID.x));
+  bool inLevel = gl_GlobalInvocationID.x < pushed.nodeCount;
+  uint at = min(gl_GlobalInvocationID.x, pushed.nodeCount - 1u);
+  uint node = pushed.firstNode + at;
+  RayRecord ray = rayOfNode(node, cameraPlace(at));
   HitRecord sofar = kMiss;
   if (CL_HAS(triangles)) sofar = hitOf(node);
-  hits[node] = closestShape(rayOf(ray), goesStraight(ray.kind), sofar);
+  HitRecord hit;
+  if (kFewShapes) {
+    float end = sofar.primitive == kNoHit ? ray.tMax : sofar.t;
+    uint ahead = shapesAhead(endingAt(rayOf(ray), end));
+    hit = closestOfShapes(rayOf(ray), goesStraight(ray.kind), sofar, ahead);
+  } else {
+    hit = closestShape(rayOf(ray), goesStraight(ray.kind), sofar);
+  }
+  if (inLevel) hits[node] = hit;
 }
