@@ -3,6 +3,7 @@
 --without-peers` does so where no peer was found, `--usage` looks at refusals. Times are not looked at."""
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -21,7 +22,9 @@ COMPARED = {
     "start": {("warm", "cold")},
 }
 # What it compares with itself.
-ALWAYS = {"bvh": {("refit", "medium"), ("load", "medium")}}
+ALWAYS = {"bvh": {("refit", "medium"), ("load", "medium")}, "growth": {("threads2", "threads1")}}
+# The scenes of "peers", and who draws them beside us where installed.
+CONTESTS = {"knot": {"povray", "tachyon", "cycles"}, "spheres": {"povray"}, "knotRaster": {"f3d"}, "teapot": {"f3d"}}
 PEER_OF = {"bvh": "embree", "rays": "embree", "raster": "osmesa"}
 PARTS = "instance device pipelines upload render readback encode process".split()
 
@@ -31,8 +34,9 @@ def demand(condition, text):
         sys.exit(f"FAILED: {text}")
 
 
-def run(command):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=110, check=False)
+def run(command, **environment):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=110, check=False,
+                          env={**os.environ, **environment})
     print(done.stdout, done.stderr, sep="")
     return done
 
@@ -62,11 +66,29 @@ def check_record(record, suites):
     return named
 
 
+def check_peers(record):
+    """Each peer of each scene is compared or left out with the reason; our own warm start is compared with the cold one."""
+    ratios = {(ratio["name"], ratio["against"]) for ratio in record["ratios"]}
+    omitted = {item["name"]: item["reason"] for item in record["omitted"]}
+    for scene, peers in CONTESTS.items():
+        ours = f"peers.{scene}.crosslight"
+        demand((ours, ours + "Cold") in ratios, f"{scene}: no cold start among {ratios}")
+        for peer in peers:
+            theirs = f"peers.{scene}.{peer}"
+            compared = {(ours + end, theirs + end2) for end, end2 in (("", ""), ("Cold", ""), (".user", ".user"))}
+            if theirs in omitted:
+                demand(omitted[theirs] and not compared & ratios, f"{theirs} is left out, and compared or without reason")
+            else:
+                demand(compared <= ratios, f"{theirs} is neither compared nor left out")
+
+
 def check_suite(record, suite, named):
+    if suite == "peers":
+        return check_peers(record)
     found = {(r["name"].split(".")[-1], r["against"].split(".")[-1])
              for r in record["ratios"] if r["name"].startswith(suite + ".")}
     absent = suite in PEER_OF and not record["peers"][PEER_OF[suite]]
-    expected = ALWAYS.get(suite, set()) | (set() if absent else COMPARED[suite])
+    expected = ALWAYS.get(suite, set()) | (set() if absent else COMPARED.get(suite, set()))
     demand(found == expected, f"{suite} compares {found}")
     left_out = [item for item in record["omitted"] if item["name"].startswith(suite)]
     demand(bool(left_out) == absent, f"{suite} leaves out {left_out}")
@@ -82,10 +104,10 @@ def check_suite(record, suite, named):
                 demand(f"rays.2k.64.{kind}.rate" in named, f"no rate of {kind}")
 
 
-def smoke(command, suites):
+def smoke(command, suites, **environment):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "record.json"
-        done = run([*command, *suites, "--rounds", 1, "--quick", "--json", file])
+        done = run([*command, *suites, "--rounds", 1, "--quick", "--json", file], **environment)
         demand(done.returncode == 0, f"exit code {done.returncode}")
         record = json.loads(file.read_text())
     named = check_record(record, suites)
@@ -110,6 +132,9 @@ def main(build, what):
         alone = [pathlib.Path(build) / "crosslight_bench_alone", "--scenes", ROOT / "scenes"]
         record, done = smoke(alone, ["bvh", "rays", "raster"])
         demand(record["peers"]["embree"] is None and record["peers"]["osmesa"] is False, "peers")
+        with tempfile.TemporaryDirectory() as nothing:  # no program is on this PATH
+            unaccompanied, _ = smoke(alone, ["peers"], PATH=nothing)
+        demand(len(unaccompanied["omitted"]) == sum(map(len, CONTESTS.values())), f"{unaccompanied['omitted']}")
         demand(done.stderr.count("left out") == 3 and done.stdout.count("left out") == 3, "left out, but not said")
     else:
         smoke(command, [what])
