@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include "base/error.h"
@@ -135,6 +136,16 @@ std::uint32_t variantOf(const Scene& scene, const Plan& plan, const RenderSettin
   return variant;
 }
 
+// Mesa's shader cache, by its own variables: MESA_GLSL_CACHE_DISABLE is the older name.
+bool driverKeepsCode() {
+  for (const char* name : {"MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"}) {
+    const char* value = std::getenv(name);
+    const std::string word = value == nullptr ? "" : value;
+    if (word == "1" || word == "true" || word == "yes" || word == "y") return false;
+  }
+  return true;
+}
+
 gpu::BindingLayout layoutOn(const gpu::Device& device) {
   return {device,
           sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
@@ -177,10 +188,9 @@ void KernelPipelines::begin(const KernelKey& key) {
 }
 
 // A software driver compiles kernels one after the other. A second instance of it compiles beside the first, and leaves
-// the code in the driver's cache on disk, at the latest when it goes; there the first finds it. Where that cache is
-// switched off, nothing is won.
+// the code in the driver's cache on disk, at the latest when it goes; there the first finds it.
 void KernelPipelines::compileElsewhere(const KernelKey& key) const {
-  if (device_.validationOn()) return;  // would watch both
+  if (device_.validationOn() || !driverKeepsCode()) return;  // validation would watch both
   try {
     gpu::DeviceOptions options;
     options.selector = std::to_string(device_.info().index);
