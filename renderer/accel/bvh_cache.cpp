@@ -117,7 +117,7 @@ std::optional<Bvh> loadBvh(const BvhCache& cache, const BvhKey& key, std::size_t
     std::optional<Bvh> bvh = accel::readBvhFile(path, key, primitives, team);
     std::error_code ignored;
     if (!bvh) {
-      if (fs::exists(path, ignored)) logVerbose("the tree " + path.string() + " is damaged or of another version");
+      if (fs::exists(path, ignored)) logWarning("the tree " + path.string() + " is damaged: it is built anew");
       return std::nullopt;
     }
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // evict() asks for it

@@ -101,7 +101,7 @@ namespace {
 struct SceneBytes {
   std::uint64_t building = 0, built = 0, onDevice = 0;
   std::uint64_t largestList = 0;  // on both sides while it is moved
-  std::uint64_t kept = 0;         // trees for the next frame
+  std::uint64_t kept = 0;         // trees for the next frame, or while they are written to disk
 };
 
 // Per triangle, of trees over 10 thousand to 20 million of them: 0.50 to 0.56 nodes, here three quarters; a wide node
@@ -122,7 +122,8 @@ SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved
   for (const TextureImage& image : request.scene->images) texels += image.rgba.size() * sizeof(float);
   if (!isTraced(request.settings.method)) return {flat, flat, flat + texels, flat + texels};
   const std::uint64_t inTrees = stats.triangles - std::min(stats.triangles, trianglesSaved);
-  const std::uint64_t kept = request.isFrame ? inTrees * (kNodeBytes + 4) : 0;  // for the next frame
+  const std::uint64_t kept =
+      request.isFrame || !request.bvhCache.folder.empty() ? inTrees * (kNodeBytes + 4) : 0;  // or while it is written
   return {flat + inTrees * kBuildBytes + kept, flat + inTrees * (kTreeBytes + kJoinBytes) + kept,
           flat + texels + inTrees * kTreeBytes, std::max({attributes, texels, inTrees * kMoreNodesBytes}), kept};
 }

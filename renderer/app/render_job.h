@@ -27,7 +27,8 @@ struct TreeRecord {
   std::string kind;    // "flat": one over all triangles; "two-level": one per mesh, and one over instances
   std::string reason;  // why instances share trees, or do not
   std::uint64_t instances = 0, trees = 0, bytes = 0, bytesSaved = 0;
-  std::uint64_t built = 0, moved = 0, unchanged = 0;  // of the trees; moved and unchanged: those of the frame before
+  // Of the trees; moved and unchanged: those of the frame before; loaded: from the disk.
+  std::uint64_t built = 0, moved = 0, unchanged = 0, loaded = 0;
 };
 
 struct RenderReport {

@@ -101,6 +101,11 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
                   "make the same image")
           ->group("Sampling"),
       o.instancesGiven);
+  noteGiven(line.text(command, "--bvh-cache", o.bvhCache, "DIR|auto|off",
+                      "Keep trees of rays (whitted) of large scenes in this folder, 4 GiB at most; auto: in "
+                      "$XDG_CACHE_HOME/crosslight/bvh")
+                ->group("Sampling"),
+            o.bvhCacheGiven);
 }
 
 void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
@@ -193,6 +198,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   if (rays && o.msaaGiven) warnUnheeded("--msaa", o);
   if (!rays && o.maxDepthGiven) warnUnheeded("--max-depth", o);
   if (!rays && o.kernelGiven) warnUnheeded("--kernel", o);
+  if (!rays && o.bvhCacheGiven) warnUnheeded("--bvh-cache", o);
   if (!rays && o.instancesGiven) warnUnheeded("--instances", o);
   settings.aovs = aovsOf(o.aovs);
   const bool layered = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
@@ -211,6 +217,12 @@ DisplayTransform checkedDisplay(const RenderOptions& o) {
   const bool png = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::png);
   if (o.alpha && !png) warnUnheeded("--alpha on a file that is no PNG", o);
   return display;
+}
+
+BvhCache bvhCacheOf(const RenderOptions& o) {
+  if (o.bvhCache == "off") return {};
+  if (o.bvhCache == "auto") return defaultBvhCache();
+  return {.folder = std::filesystem::absolute(o.bvhCache)};
 }
 
 LoadOptions loadOptionsOf(const RenderOptions& o) {

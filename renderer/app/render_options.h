@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "accel/bvh_cache.h"
 #include "app/device_choice.h"
 #include "image/image_io.h"
 #include "scene/load.h"
@@ -36,6 +37,8 @@ struct RenderOptions {
   bool kernelGiven = false;
   std::string instances = "auto";
   bool instancesGiven = false;
+  std::string bvhCache = "auto";
+  bool bvhCacheGiven = false;
   std::vector<std::string> set;
   std::string effects = "auto";
   std::string aovs;
@@ -66,6 +69,8 @@ void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& optio
 // name needs the scene.
 RenderSettings checkedSettings(const RenderOptions& options);
 DisplayTransform checkedDisplay(const RenderOptions& options);
+// Where --bvh-cache keeps trees.
+BvhCache bvhCacheOf(const RenderOptions& options);
 LoadOptions loadOptionsOf(const RenderOptions& options);
 
 // "640x480"; UsageError with the rule otherwise.

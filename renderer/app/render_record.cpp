@@ -10,9 +10,10 @@ namespace crosslight {
 namespace {
 
 Json treeJson(const TreeRecord& tree) {
-  return {{"kind", tree.kind},   {"reason", tree.reason}, {"instances", tree.instances},
-          {"trees", tree.trees}, {"bytes", tree.bytes},   {"bytesSaved", tree.bytesSaved},
-          {"built", tree.built}, {"moved", tree.moved},   {"unchanged", tree.unchanged}};
+  return {{"kind", tree.kind},    {"reason", tree.reason}, {"instances", tree.instances},
+          {"trees", tree.trees},  {"bytes", tree.bytes},   {"bytesSaved", tree.bytesSaved},
+          {"built", tree.built},  {"moved", tree.moved},   {"unchanged", tree.unchanged},
+          {"loaded", tree.loaded}};
 }
 
 Json settingsJson(const RenderSettings& s, const RenderOptions& o) {

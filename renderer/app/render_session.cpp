@@ -139,6 +139,7 @@ struct RenderSession::Impl {
   PlacedScene& place(const RenderRequest& request, const Sharing& sharing, RenderReport& report, Phases& phases);
   void make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing, Phases& phases);
   KeptTrees* keptFor(const RenderRequest& request);
+  CachedTrees* cachedFor(const RenderRequest& request);
   FlatBvh treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing, TreeRecord& record);
   Film& filmFor(const FilmSettings& settings, RenderReport& report);
   std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, const Sharing& sharing,
@@ -149,6 +150,7 @@ struct RenderSession::Impl {
   gpu::Device& device;
   std::list<PlacedScene> scenes;  // the latest first
   KeptTrees keptTrees;            // of the last frame
+  std::unique_ptr<CachedTrees> cachedTrees;
   PlacedFilm film;
   std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
 };
@@ -161,19 +163,32 @@ KeptTrees* RenderSession::Impl::keptFor(const RenderRequest& request) {
   return plan.has(Effect::transparency) && plan.has(Effect::shadows) ? nullptr : &keptTrees;
 }
 
+// Not of frames: each has a tree of its own, which no other picture will ask for.
+CachedTrees* RenderSession::Impl::cachedFor(const RenderRequest& request) {
+  if (request.isFrame || request.bvhCache.folder.empty()) return nullptr;
+  if (cachedTrees == nullptr || cachedTrees->cache().folder != request.bvhCache.folder)
+    cachedTrees = std::make_unique<CachedTrees>(request.bvhCache);
+  return cachedTrees.get();
+}
+
 FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing,
                                       TreeRecord& record) {
   FlatBvh trees;
+  const TreeSources sources{keptFor(request), cachedFor(request)};
   if (sharing.shares) {
     SharedTreesReport report;
-    trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, keptFor(request));
+    trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, sources);
     record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved, report.trees};
   } else {
     trees = buildFlatBvh(flat, *request.scene, request.settings,
-                         {kernels->choice().wideTree, kernels->choice().quadTree}, keptFor(request));
+                         {kernels->choice().wideTree, kernels->choice().quadTree}, sources);
     record = {"flat", sharing.reason, flat.instances.size(), 1, 0, 0, 1};
   }
-  if (keptFor(request) != nullptr) {
+  if (sources.cached != nullptr) {
+    record.loaded = sources.cached->takeLoaded();
+    record.built -= record.loaded;
+  }
+  if (sources.kept != nullptr) {
     const KeptTrees::Counts counts = keptTrees.takeCounts();
     record.built = counts.built;
     record.moved = counts.moved;

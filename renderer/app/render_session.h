@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "accel/bvh_cache.h"
 #include "app/render_job.h"
 #include "film/film.h"
 
@@ -19,6 +20,7 @@ struct RenderRequest {
   bool isFrame = false;                 // others like it follow: trees are kept, and moved where triangles move
   // The image is only shown, through this transform: then it may hold shownCodes instead of samples, the same codes.
   std::optional<DisplayTransform> shownBy = {};
+  BvhCache bvhCache = {};  // where trees of large scenes are kept on disk; no folder: nowhere
 };
 
 class RenderSession {

@@ -74,8 +74,8 @@ Json runPicture(const RenderWork& work, RenderContext& context) {
   gpu::Device& device = context.device.get();
   append(context.device.takeTimes(), timesMs);
   const std::vector<Band> rows = work.part ? rowsOfPart(*work.part, settings.height) : std::vector<Band>();
-  RenderResult result =
-      drawWithProgress(work, context, {scene, settings, rows, fileBytesPerPixel(work), false, shownBy(work)});
+  RenderResult result = drawWithProgress(
+      work, context, {scene, settings, rows, fileBytesPerPixel(work), false, shownBy(work), bvhCacheOf(options)});
   append(std::move(result.report.timesMs), timesMs);
   throwIfInterrupted();
 

@@ -36,6 +36,12 @@ std::uint64_t bytesOf(const std::vector<T>& list) {
 
 }  // namespace
 
+std::shared_ptr<const Bvh> TreeSources::over(int key, const BvhTriangles& triangles) const {
+  if (kept != nullptr) return {std::shared_ptr<void>(), &kept->over(key, triangles)};
+  if (cached != nullptr) return cached->over(triangles);
+  return std::make_shared<const Bvh>(buildTriangleBvh(triangles));
+}
+
 std::uint64_t FlatBvh::sizeBytes() const {
   return bytesOf(nodes) + bytesOf(primitives) + bytesOf(wideNodes) + bytesOf(quadNodes) + bytesOf(instances) +
          bytesOf(instanceTriangles);
@@ -81,11 +87,16 @@ void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSetting
 }
 
 FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more,
-                     KeptTrees* kept) {
+                     const TreeSources& sources) {
   FlatBvh result;
+  const bool mine = sources.kept == nullptr && sources.cached == nullptr;
   Bvh own;
-  if (kept == nullptr) own = buildTriangleBvh({flat.positions, flat.indices});
-  const Bvh& triangles = kept ? kept->over(kRenderSpaceTree, {flat.positions, flat.indices}) : own;
+  std::shared_ptr<const Bvh> other;
+  if (mine)
+    own = buildTriangleBvh({flat.positions, flat.indices});
+  else
+    other = sources.over(kRenderSpaceTree, {flat.positions, flat.indices});
+  const Bvh& triangles = mine ? own : *other;
   std::future<WideBvh> widening;
   std::future<QuadBvh> quantizing;
   if (more.quad) quantizing = std::async(std::launch::async, quantize, std::cref(triangles));
@@ -102,10 +113,7 @@ FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSett
     result.wideDepth = eight.maxDepth;
   }
   // The first tree's references need not move. Its nodes do not fit twice where it is large.
-  if (kept == nullptr)
-    result.nodes = std::move(own.nodes);
-  else
-    result.nodes = triangles.nodes;
+  result.nodes = mine ? std::move(own.nodes) : triangles.nodes;
   appendShapes(flat, scene, settings, result);
   return result;
 }

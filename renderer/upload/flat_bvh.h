@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "accel/cached_trees.h"
 #include "accel/kept_trees.h"
 #include "accel/wide_bvh.h"
 #include "upload/flatten.h"
@@ -39,8 +40,16 @@ struct MoreTrees {
   bool wide = true;
   bool quad = true;
 };
-// With `kept` the tree of the frame before is moved where that is possible.
+// Where trees come from besides being built: the frame before, else the disk. Either may be null.
+struct TreeSources {
+  KeptTrees* kept = nullptr;
+  CachedTrees* cached = nullptr;
+
+  // Valid as long as the result, and of `kept` until the next call with this key.
+  std::shared_ptr<const Bvh> over(int key, const BvhTriangles& triangles) const;
+};
+
 FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more = {},
-                     KeptTrees* kept = nullptr);
+                     const TreeSources& sources = {});
 
 }  // namespace crosslight

@@ -100,8 +100,8 @@ MeshTriangles restOf(const FlatScene& flat, const std::vector<const FlatInstance
 class Builder {
  public:
   Builder(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, const Sharing& sharing,
-          KeptTrees* kept)
-      : flat_(flat), scene_(scene), settings_(settings), sharing_(sharing), kept_(kept) {}
+          const TreeSources& sources)
+      : flat_(flat), scene_(scene), settings_(settings), sharing_(sharing), sources_(sources) {}
 
   FlatBvh run(SharedTreesReport& report) {
     std::vector<const FlatInstance*> rest;
@@ -127,9 +127,8 @@ class Builder {
   // Appends a tree; its root.
   std::uint32_t addTree(int key, const BvhTriangles& triangles, const std::vector<std::uint32_t>& primitiveOf,
                         const std::vector<std::uint32_t>* triangleOf, const auto& flagsOf) {
-    Bvh built;
-    if (kept_ == nullptr) built = buildTriangleBvh(triangles);
-    const Bvh& tree = kept_ ? kept_->over(key, triangles) : built;
+    const std::shared_ptr<const Bvh> source = sources_.over(key, triangles);
+    const Bvh& tree = *source;
     const auto root = static_cast<std::uint32_t>(nodes_.size());
     appendTree(tree, static_cast<std::uint32_t>(triangles_.size()), nodes_);
     for (const std::uint32_t t : tree.order) {
@@ -211,7 +210,7 @@ class Builder {
   const Scene& scene_;
   const RenderSettings& settings_;
   const Sharing& sharing_;
-  KeptTrees* kept_;
+  const TreeSources& sources_;
   std::vector<shared::BvhNode> nodes_;
   std::vector<shared::InstanceTriangle> triangles_;
   std::vector<shared::InstanceRecord> records_;
@@ -222,8 +221,8 @@ class Builder {
 }  // namespace
 
 FlatBvh buildSharedTrees(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
-                         const Sharing& sharing, SharedTreesReport& report, KeptTrees* kept) {
-  return Builder(flat, scene, settings, sharing, kept).run(report);
+                         const Sharing& sharing, SharedTreesReport& report, const TreeSources& sources) {
+  return Builder(flat, scene, settings, sharing, sources).run(report);
 }
 
 }  // namespace crosslight

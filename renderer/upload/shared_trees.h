@@ -33,6 +33,6 @@ struct SharedTreesReport {
 };
 
 FlatBvh buildSharedTrees(const FlatScene& flat, const Scene& scene, const RenderSettings& settings,
-                         const Sharing& sharing, SharedTreesReport& report, KeptTrees* kept = nullptr);
+                         const Sharing& sharing, SharedTreesReport& report, const TreeSources& sources = {});
 
 }  // namespace crosslight

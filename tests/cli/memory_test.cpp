@@ -77,6 +77,41 @@ class Memory : public CliTest {
   }
 };
 
+// The picture is the same whether its tree was built, loaded, or found damaged and built again; it is kept on request
+// only where asked for, and of large scenes only.
+TEST_F(Memory, ofTreesOnDiskChangesNoPicture) {
+  writeSheet(path("large.gltf"), 330);
+  writeSheet(path("small.gltf"), 20);
+  const std::string folder = path("trees").string();
+  const auto draw = [&](const std::string& scene, const std::string& cache) {
+    const Outcome outcome = run({"render", scene, "-o", "out.pfm", "-m", "whitted", "-r", "64x64", "--bvh-cache", cache,
+                                 "--json", "record.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return outcome;
+  };
+  const auto loaded = [&] { return Json::parse(read("record.json")).at("tree").at("loaded").get<int>(); };
+  draw("small.gltf", folder);
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  draw("large.gltf", "off");
+  const std::string expected = read("out.pfm");
+  draw("large.gltf", folder);
+  EXPECT_EQ(loaded(), 0);
+  EXPECT_EQ(read("out.pfm"), expected);
+  std::vector<std::filesystem::path> kept;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) kept.push_back(entry.path());
+  ASSERT_EQ(kept.size(), 1u);
+  draw("large.gltf", folder);
+  EXPECT_EQ(loaded(), 1);
+  EXPECT_EQ(read("out.pfm"), expected);
+  std::filesystem::resize_file(kept[0], std::filesystem::file_size(kept[0]) / 2);
+  const Outcome outcome = draw("large.gltf", folder);
+  EXPECT_NE(outcome.err.find("damaged"), std::string::npos) << outcome.err;
+  EXPECT_EQ(loaded(), 0);
+  EXPECT_EQ(read("out.pfm"), expected);
+  draw("large.gltf", folder);
+  EXPECT_EQ(loaded(), 1) << "the damaged file is replaced";
+}
+
 TEST_F(Memory, ofALargeSceneIsWhatWasEstimated) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's own memory would be counted";

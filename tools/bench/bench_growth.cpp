@@ -50,16 +50,17 @@ class Growth {
   // `NAME`: wall time of rendering, tracing and shading, as the record has it. `NAME`.whole: of the process.
   Measured render(const Point& point, unsigned threads) {
     const std::filesystem::path gltf = sceneOf(point.triangles), record = folder_ / "record.json";
-    const PeerRun run = runMeasured(
-        bench_.program,
-        {"render", gltf.string(), "-o", (folder_ / "picture.png").string(), "--method", "whitted", "--max-depth", "0",
-         "--resolution", fmt::format("{}x{}", point.size, point.size), "--quiet", "--json", record.string()},
-        {{"LP_NUM_THREADS", std::to_string(threads)},
-         {"MESA_SHADER_CACHE_DIR", (folder_ / "cache/mesa").string()},
-         {"XDG_CACHE_HOME", (folder_ / "cache").string()},
-         {"MESA_SHADER_CACHE_DISABLE", ""},
-         {"MESA_GLSL_CACHE_DISABLE", ""}},
-        folder_);
+    const PeerRun run =
+        runMeasured(bench_.program,
+                    {"render", gltf.string(), "-o", (folder_ / "picture.png").string(), "--method", "whitted",
+                     "--max-depth", "0", "--resolution", fmt::format("{}x{}", point.size, point.size), "--bvh-cache",
+                     "off", "--quiet", "--json", record.string()},
+                    {{"LP_NUM_THREADS", std::to_string(threads)},
+                     {"MESA_SHADER_CACHE_DIR", (folder_ / "cache/mesa").string()},
+                     {"XDG_CACHE_HOME", (folder_ / "cache").string()},
+                     {"MESA_SHADER_CACHE_DISABLE", ""},
+                     {"MESA_GLSL_CACHE_DISABLE", ""}},
+                    folder_);
     std::ifstream in(record);
     last_ = Json::parse(in);
     const std::string name = seriesName(point, threads);
