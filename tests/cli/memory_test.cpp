@@ -58,8 +58,9 @@ void writeSheet(const std::filesystem::path& file, std::uint32_t side) {
   std::ofstream(file) << gltf;
 }
 
-// Bins of triangles and vertices that are on their way: llvmpipe has two scenes of 36 MiB, whatever is drawn.
-constexpr double kDriverBytes = 96.0 * (1 << 20);
+// Bins of triangles and vertices that are on their way (llvmpipe has two scenes of 36 MiB, whatever is drawn), and what
+// the program's heap has grown by in advance.
+constexpr double kBesideBytes = 160.0 * (1 << 20);
 
 struct Taken {
   double peak = 0, needed = 0, loaded = 0;  // bytes
@@ -117,14 +118,14 @@ TEST_F(Memory, ofALargeSceneIsWhatWasEstimated) {
   GTEST_SKIP() << "the sanitizer's own memory would be counted";
 #endif
   writeSheet(path("small.gltf"), 2);
-  writeSheet(path("large.gltf"), 900);
+  writeSheet(path("large.gltf"), 1200);
   for (const std::string method : {"phong", "whitted"}) {
     SCOPED_TRACE(method);
     take("small.gltf", method);  // compiles shaders, which takes memory too
     const Taken small = take("small.gltf", method), large = take("large.gltf", method);
     const double estimated = large.needed - small.needed + large.loaded;
     EXPECT_GT(estimated, 1.5e8);
-    EXPECT_LT(large.peak - small.peak, estimated + kDriverBytes);
+    EXPECT_LT(large.peak - small.peak, estimated + kBesideBytes);
     EXPECT_GT(large.peak - small.peak, 0.5 * estimated) << "scenes would be refused that fit";
   }
 }
