@@ -17,9 +17,10 @@ using namespace shared;
 
 namespace {
 
-constexpr std::uint32_t kChunkRays = 1u << 18;  // camera rays at once
-constexpr std::uint32_t kNodesPerPixel = 4;     // room for the tree, on average; a fuller chunk is halved
-constexpr std::uint32_t kQueueWords = 4;        // of kBindQueues per class, before the rays
+constexpr std::uint32_t kChunkRays = 1u << 18;   // camera rays at once
+constexpr std::uint32_t kChunkTrees = 1u << 17;  // the same where they grow trees
+constexpr std::uint32_t kNodesPerPixel = 8;      // room for a tree, on average; a fuller chunk is halved
+constexpr std::uint32_t kQueueWords = 4;         // of kBindQueues per class, before the rays
 constexpr std::uint32_t kRaysPerClassifyGroup = 4 * kRaysPerGroup;
 constexpr std::uint32_t kFewestNodes = 4096;  // a small image may still have deep trees
 
@@ -81,8 +82,8 @@ class Whitted final : public Technique {
 
  private:
   void makeBuffers() {
-    chunk_ = std::min(kChunkRays, cameraRayCount(settings_.width, settings_.height));
     const bool tree = branches_ && settings_.maxDepth > 0;
+    chunk_ = std::min(tree ? kChunkTrees : kChunkRays, cameraRayCount(settings_.width, settings_.height));
     const std::uint64_t fits = device_.info().maxStorageBufferBytes / sizeof(RayNode);
     const std::uint64_t wanted =
         std::max(std::uint64_t{chunk_} * (tree ? kNodesPerPixel : 1), std::uint64_t{kFewestNodes});
