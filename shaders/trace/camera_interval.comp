@@ -8,7 +8,6 @@
 #define CL_RAYS_PER_LANE 8
 #define CL_ORIGIN_ZERO ((specVariant & kVariantOrthographic) == 0u)
 #include "accel/interval.glsl"
-#include "trace/groups.glsl"
 
 layout(local_size_x = 8) in;
 

@@ -51,7 +51,7 @@ uint reserve(uint hitClass, uint count) {
 }
 
 void main() {
-  uint first = kRaysPerLane * gl_GlobalInvocationID.x;
+  uint first = kRaysPerLane * placeOfInvocation();
   uint classes[kRaysPerLane];
   uvec2 wanted = uvec2(0u);
   [[unroll]] for (uint k = 0u; k < kRaysPerLane; ++k) {

@@ -14,8 +14,9 @@ layout(set = 0, binding = kBindNodeTexels) uniform usamplerBuffer nodeTexels;
 vec4 texelOf(uint node, uint part) { return uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + part))); }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
-  uint index = pushed.firstNode + gl_GlobalInvocationID.x;
+  uint at = placeOfInvocation();
+  if (at >= pushed.nodeCount) return;
+  uint index = pushed.firstNode + at;
   vec4 own = texelOf(index, 0u);
   uvec2 children = texelFetch(nodeTexels, int(3u * index + 2u)).xy;
   vec4 reflected = texelOf(children.x == kNoRayNode ? index : children.x, 0u);
@@ -30,6 +31,6 @@ void main() {
     nodes[index].alpha = own.a;
     return;
   }
-  uint pixel = pixelOf(cameraPlace(gl_GlobalInvocationID.x));
+  uint pixel = pixelOf(cameraPlace(at));
   if (pixel != kNoPixel) samples[pixel] = own;
 }

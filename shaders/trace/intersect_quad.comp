@@ -11,8 +11,9 @@ layout(local_size_x = 64) in;
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
 void main() {
-  if (gl_GlobalInvocationID.x >= pushed.nodeCount) return;
-  uint node = pushed.firstNode + gl_GlobalInvocationID.x;
-  RayRecord ray = rayRecordOf(node);
-  hits[node] = closestTriangleByQuads(rayOf(ray), goesStraight(ray.kind));
+  uint ray = rayOfInvocation();
+  if (ray == kNoRay) return;
+  uint node = pushed.firstNode + ray;
+  RayRecord stored = rayRecordOf(node);
+  hits[node] = closestTriangleByQuads(rayOf(stored), goesStraight(stored.kind));
 }

@@ -7,7 +7,6 @@
 #include "trace/shadow_ray.glsl"
 #define CL_RAYS_PER_LANE 8
 #include "accel/packet_occluded.glsl"
-#include "trace/groups.glsl"
 
 layout(local_size_x = 8) in;
 

@@ -13,8 +13,8 @@ layout(local_size_x = 64) in;
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
 void main() {
-  bool inLevel = gl_GlobalInvocationID.x < pushed.nodeCount;
-  uint at = min(gl_GlobalInvocationID.x, pushed.nodeCount - 1u);
+  bool inLevel = placeOfInvocation() < pushed.nodeCount;
+  uint at = min(placeOfInvocation(), pushed.nodeCount - 1u);
   uint node = pushed.firstNode + at;
   RayRecord ray = rayOfNode(node, cameraPlace(at));
   HitRecord sofar = kMiss;

@@ -2,6 +2,7 @@
 #ifndef CROSSLIGHT_TREE_GLSL
 #define CROSSLIGHT_TREE_GLSL
 #include "accel/ray.glsl"
+#include "trace/groups.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { TracePush pushed; };
 layout(set = 0, binding = kBindRays, scalar) writeonly buffer RayBlock { RayRecord rays[]; };
@@ -44,11 +45,14 @@ uint rayAtPlace(uint place) {
   return there ? ray : kNoRay;
 }
 
+// Of the kernels whose groups have 64 lanes.
+uint placeOfInvocation() { return spreadGroup() * 64u + gl_LocalInvocationID.x; }
+
 // Ray of this invocation within its level, or kNoRay: all are walked through, or only the groups of 64 that packets
 // gave up.
 uint rayOfInvocation() {
-  uint group = gl_WorkGroupID.x;
-  if ((specVariant & kVariantRest) != 0u) group = rest[kRestGroups + group];
-  return rayAtPlace(group * 64u + gl_LocalInvocationID.x);
+  uint place = placeOfInvocation();
+  if ((specVariant & kVariantRest) != 0u) place = rest[kRestGroups + gl_WorkGroupID.x] * 64u + gl_LocalInvocationID.x;
+  return rayAtPlace(place);
 }
 #endif
