@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "trace/ray_store.h"
 
 namespace crosslight {
 
@@ -17,12 +18,8 @@ using namespace shared;
 
 namespace {
 
-constexpr std::uint32_t kChunkRays = 1u << 18;   // camera rays at once
-constexpr std::uint32_t kChunkTrees = 1u << 17;  // the same where they grow trees
-constexpr std::uint32_t kNodesPerPixel = 8;      // room for a tree, on average; a fuller chunk is halved
-constexpr std::uint32_t kQueueWords = 4;         // of kBindQueues per class, before the rays
 constexpr std::uint32_t kRaysPerClassifyGroup = 4 * kRaysPerGroup;
-constexpr std::uint32_t kFewestNodes = 4096;  // a small image may still have deep trees
+constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
 class Whitted final : public Technique {
  public:
@@ -36,20 +33,11 @@ class Whitted final : public Technique {
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
         classes_(kernels_->classes().classes),
+        store_(device, storeSize(), kernels_->classes()),
         set_(device, kernels_->layout()),
         commands_(device) {
-    makeBuffers();
     scene_.bind(set_);
-    set_.set(kBindRays, raysBuffer_);
-    set_.set(kBindRayTexels, raysBuffer_);
-    set_.set(kBindRayNodes, nodes_);
-    set_.set(kBindNodeTexels, nodes_);
-    set_.set(kBindHits, hits_);
-    set_.set(kBindHitTexels, hits_);
-    set_.set(kBindRest, rest_);
-    set_.set(kBindQueues, queues_);
-    set_.set(kBindHitClasses, hitClasses_);
-    set_.set(kBindVisibility, visibility_);
+    store_.bind(set_);
     set_.set(kBindCounters, buffers.counters);
     set_.set(kBindSampleColor, buffers.sampleColor);
     set_.set(kBindAovs, buffers.aovs);
@@ -60,7 +48,7 @@ class Whitted final : public Technique {
     rays_["primary"] += std::uint64_t{request.band.rowCount} * request.width;
     const std::uint32_t rays = cameraRayCount(request.width, request.band.rowCount);
     for (std::uint32_t first = 0; first < rays;) {
-      const std::uint32_t count = std::min(chunk_, rays - first);
+      const std::uint32_t count = std::min(store_.chunk, rays - first);
       if (traceChunk(request, first, count, tally)) first += count;
       throwIfInterrupted();
     }
@@ -81,30 +69,12 @@ class Whitted final : public Technique {
   }
 
  private:
-  void makeBuffers() {
-    const bool tree = branches_ && settings_.maxDepth > 0;
-    chunk_ = std::min(tree ? kChunkTrees : kChunkRays, cameraRayCount(settings_.width, settings_.height));
-    const std::uint64_t fits = device_.info().maxStorageBufferBytes / sizeof(RayNode);
-    const std::uint64_t wanted =
-        std::max(std::uint64_t{chunk_} * (tree ? kNodesPerPixel : 1), std::uint64_t{kFewestNodes});
-    capacity_ = static_cast<std::uint32_t>(std::min(wanted, fits));
-    batch_ = lightBatch(scene_.lightCount());
-    const bool shadows = !choice_.shadow.empty();
-    const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t size) {
-      return gpu::Buffer(device_, name, count * size, gpu::useStorage | gpu::useUniformTexel);
-    };
-    raysBuffer_ = buffer("rays", tree ? capacity_ : 1, sizeof(RayRecord));
-    nodes_ = buffer("ray nodes", branches_ ? capacity_ : 1, sizeof(RayNode));
-    hits_ = buffer("hits", capacity_, sizeof(HitRecord));
-    rest_ = gpu::Buffer(device_, "groups that packets gave up",
-                        (kRestGroups + capacity_ / kRaysPerGroup + 1) * sizeof(std::uint32_t),
-                        gpu::useStorage | gpu::useIndirect);
-    const std::uint64_t perClass = classes_.empty() ? 0 : kQueueWords + capacity_;
-    queues_ =
-        gpu::Buffer(device_, "hit queues", std::max<std::uint64_t>(kHitClasses * perClass, 1) * sizeof(std::uint32_t),
-                    gpu::useStorage | gpu::useIndirect);
-    hitClasses_ = gpu::Buffer::of(device_, "hit classes", kernels_->classes().ofMaterial, gpu::useUniformTexel);
-    visibility_ = buffer("visibility", shadows ? std::uint64_t{capacity_} * batch_ : 1, sizeof(float));
+  RayStoreSize storeSize() const {
+    return {.cameraRays = cameraRayCount(settings_.width, settings_.height),
+            .lights = scene_.lightCount(),
+            .tree = branches_ && settings_.maxDepth > 0,
+            .branches = branches_,
+            .shadows = !choice_.shadow.empty()};
   }
 
   // Is something missing from what a chunk left? Then it is set up to succeed the next time.
@@ -124,16 +94,16 @@ class Whitted final : public Technique {
     ++repeated_;
     if (count == 1) {
       throw DeviceError(fmt::format("one pixel's ray tree needs more than {} nodes: lower --max-depth (now {})",
-                                    capacity_, settings_.maxDepth));
+                                    store_.capacity, settings_.maxDepth));
     }
-    chunk_ = (count + 1) / 2;
-    logVerbose(fmt::format("ray tree store is full: going on with chunks of {} pixels", chunk_));
+    store_.chunk = (count + 1) / 2;
+    logVerbose(fmt::format("ray tree store is full: going on with chunks of {} pixels", store_.chunk));
   }
 
   // Where a kernel's groups come from: all rays of the level, or a queue of its hits.
   void dispatchGroups(const TracePush& push, bool queued) {
     if (queued)
-      commands_.dispatchIndirect(queues_, push.hitClass * kQueueWords * sizeof(std::uint32_t));
+      commands_.dispatchIndirect(store_.queues, push.hitClass * RayStore::kQueueWords * kWord);
     else
       commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
   }
@@ -152,8 +122,8 @@ class Whitted final : public Technique {
   // With packets; then, one ray per lane, those that packets gave up.
   void dispatch(const KernelKey& key, const std::string& rest, const TracePush& push, const char* span) {
     if (!rest.empty()) {
-      commands_.fill(rest_, 0, sizeof(std::uint32_t), 0u);
-      commands_.fill(rest_, sizeof(std::uint32_t), 2 * sizeof(std::uint32_t), 1u);
+      commands_.fill(store_.rest, 0, kWord, 0u);
+      commands_.fill(store_.rest, kWord, 2 * kWord, 1u);
       commands_.barrier();
     }
     dispatch(key, push, span);
@@ -161,7 +131,7 @@ class Whitted final : public Technique {
     commands_.beginSpan(span);
     commands_.bind(kernels_->get({rest, key.variant | kVariantRest}), set_);
     commands_.push(push);
-    commands_.dispatchIndirect(rest_, 0);
+    commands_.dispatchIndirect(store_.rest, 0);
     commands_.endSpan();
     commands_.barrier();
   }
@@ -186,7 +156,7 @@ class Whitted final : public Technique {
     push.firstRow = request.band.firstRow;
     push.bandRows = request.band.rowCount;
     push.firstInTiles = first;
-    push.nodeCapacity = capacity_;
+    push.nodeCapacity = store_.capacity;
     push.maxDepth = settings_.maxDepth;
     push.nodeCount = count;
     std::vector<TracePush> levels;
@@ -214,9 +184,9 @@ class Whitted final : public Technique {
     dispatch({choice_.shapes}, push, "shapes");
     if (!classes_.empty()) queueHits(push);
     const std::uint32_t lights = scene_.lightCount();
-    for (std::uint32_t first = 0; first == 0 || first < lights; first += batch_) {
+    for (std::uint32_t first = 0; first == 0 || first < lights; first += store_.batch) {
       push.firstLight = first;
-      push.lightCount = std::min(batch_, lights - first);
+      push.lightCount = std::min(store_.batch, lights - first);
       shadeLevel(push, primary && aovs ? kVariantAovs : 0);
     }
     submit(tally);
@@ -224,16 +194,15 @@ class Whitted final : public Technique {
 
   void queueHits(const TracePush& push) {
     for (std::uint64_t c = 0; c < kHitClasses; ++c) {  // no group yet, of 1 x 1; none in the queue
-      const std::uint64_t at = c * kQueueWords * sizeof(std::uint32_t);
-      commands_.fill(queues_, at, sizeof(std::uint32_t), 0u);
-      commands_.fill(queues_, at + sizeof(std::uint32_t), 2 * sizeof(std::uint32_t), 1u);
-      commands_.fill(queues_, at + 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), 0u);
+      const std::uint64_t at = c * RayStore::kQueueWords * kWord;
+      commands_.fill(store_.queues, at, kWord, 0u);
+      commands_.fill(store_.queues, at + kWord, 2 * kWord, 1u);
+      commands_.fill(store_.queues, at + 3 * kWord, kWord, 0u);
     }
     commands_.barrier();
-    TracePush every = push;
     commands_.beginSpan("classify");
     commands_.bind(kernels_->get({"classify.comp"}), set_);
-    commands_.push(every);
+    commands_.push(push);
     commands_.dispatch((push.nodeCount + kRaysPerClassifyGroup - 1) / kRaysPerClassifyGroup);
     commands_.endSpan();
     commands_.barrier();
@@ -290,11 +259,10 @@ class Whitted final : public Technique {
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;
   const std::vector<HitClass>& classes_;
+  RayStore store_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
-  gpu::Buffer raysBuffer_, nodes_, hits_, visibility_, rest_, queues_, hitClasses_;
   bool packetsGiveUp_ = false;  // some do in this scene: what they leave is done again
-  std::uint32_t chunk_ = 0, capacity_ = 0, batch_ = 1;
   std::map<std::string, std::uint64_t> rays_;
   std::uint64_t levels_ = 0, repeated_ = 0, capped_ = 0, gaveUp_ = 0;
 };
