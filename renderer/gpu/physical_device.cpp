@@ -147,6 +147,21 @@ void refuseFormats(const vk::raii::PhysicalDevice& physical, std::vector<std::st
   need(integer.bufferFeatures, Flag::eUniformTexelBuffer, "RGBA32_UINT uniform texel buffers");
 }
 
+// Of which Vulkan promises the basic ones alone.
+void refuseSubgroups(const vk::raii::PhysicalDevice& physical, std::vector<std::string>& refusals) {
+  using Operation = vk::SubgroupFeatureFlagBits;
+  const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties>();
+  const auto& has = chain.get<vk::PhysicalDeviceVulkan11Properties>();
+  const bool inCompute = static_cast<bool>(has.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
+  const auto need = [&](Operation operation, const char* name) {
+    if (inCompute && (has.subgroupSupportedOperations & operation)) return;
+    refusals.push_back(fmt::format("needs {} operations of subgroups in compute shaders: ray kernels use them", name));
+  };
+  need(Operation::eBallot, "ballot");
+  need(Operation::eArithmetic, "arithmetic");
+  need(Operation::eShuffle, "shuffle");
+}
+
 void chooseQueue(Candidate& candidate) {
   const auto families = candidate.physical.getQueueFamilyProperties();
   for (std::uint32_t i = 0; i < families.size(); ++i) {
@@ -173,6 +188,7 @@ std::vector<Candidate> candidatesOf(const vk::raii::Instance& instance) {
       refusals.push_back("needs Vulkan 1.3, its driver has " + candidate.report.info.apiVersion);
     } else {
       refuseFeatures(candidate.physical, refusals);
+      refuseSubgroups(candidate.physical, refusals);
     }
     refuseFormats(candidate.physical, refusals);
     chooseQueue(candidate);
