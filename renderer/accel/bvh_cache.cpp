@@ -1,12 +1,12 @@
 #include "accel/bvh_cache.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <string>
 
 #include "accel/bvh_cache_file.h"
 #include "accel/bvh_hash.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/time.h"
@@ -85,18 +85,8 @@ void evict(const BvhCache& cache) {
 }  // namespace
 
 BvhCache defaultBvhCache() {
-  // The XDG base directory specification: a relative path is invalid and to be ignored.
-  const auto absolutePath = [](const char* name) {
-    const char* const value = std::getenv(name);
-    const fs::path path = value == nullptr ? "" : value;
-    return path.is_absolute() ? path : fs::path();
-  };
   BvhCache cache;
-  if (const fs::path folder = absolutePath("XDG_CACHE_HOME"); !folder.empty()) {
-    cache.folder = folder / "crosslight" / "bvh";
-  } else if (const fs::path home = absolutePath("HOME"); !home.empty()) {
-    cache.folder = home / ".cache" / "crosslight" / "bvh";
-  }
+  if (const fs::path folder = cacheFolder(); !folder.empty()) cache.folder = folder / "bvh";
   return cache;
 }
 

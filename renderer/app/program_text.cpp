@@ -31,7 +31,8 @@ ProgramModel programText() {
   };
   program.environment = {
       {"CROSSLIGHT_VALIDATION", "1: Vulkan's validation layer is on; any message of it ends with exit code 5"},
-      {"XDG_CACHE_HOME", "the folder of crosslight/, where compiled pipelines of hardware drivers are kept"},
+      {"XDG_CACHE_HOME",
+       "the folder of crosslight/, where trees of large scenes and hardware drivers' compiled pipelines are kept"},
       {"VK_DRIVER_FILES", "the Vulkan loader's own: which drivers are looked at"},
       {"LP_NUM_THREADS", "lavapipe's own: its number of threads; the image does not depend on it"},
   };

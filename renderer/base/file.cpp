@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -84,6 +85,18 @@ void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes)
 
 void writeFileAtomically(const fs::path& path, const std::string& text) {
   writeFileAtomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::filesystem::path cacheFolder() {
+  // The XDG base directory specification: a relative path is invalid and to be ignored.
+  const auto absolutePath = [](const char* name) {
+    const char* const value = std::getenv(name);
+    const std::filesystem::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : std::filesystem::path();
+  };
+  if (const auto cache = absolutePath("XDG_CACHE_HOME"); !cache.empty()) return cache / "crosslight";
+  if (const auto home = absolutePath("HOME"); !home.empty()) return home / ".cache" / "crosslight";
+  return {};
 }
 
 }  // namespace crosslight

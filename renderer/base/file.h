@@ -21,4 +21,8 @@ void writeFileAtomically(const std::filesystem::path& path,
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
 
+// Where what can be made again is kept: $XDG_CACHE_HOME/crosslight, or ~/.cache/crosslight; empty where neither
+// variable says where.
+std::filesystem::path cacheFolder();
+
 }  // namespace crosslight

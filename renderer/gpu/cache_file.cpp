@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 
@@ -71,18 +70,6 @@ bool saveCache(const std::filesystem::path& path, std::span<const std::byte> blo
     logVerbose(std::string("the pipeline cache is not written: ") + trouble.what());
     return false;
   }
-}
-
-std::filesystem::path pipelineCacheFolder() {
-  // The XDG base directory specification: a relative path is invalid and to be ignored.
-  const auto absolutePath = [](const char* name) {
-    const char* value = std::getenv(name);
-    const std::filesystem::path path = value == nullptr ? "" : value;
-    return path.is_absolute() ? path : std::filesystem::path();
-  };
-  if (const auto cache = absolutePath("XDG_CACHE_HOME"); !cache.empty()) return cache / "crosslight";
-  if (const auto home = absolutePath("HOME"); !home.empty()) return home / ".cache" / "crosslight";
-  return {};
 }
 
 }  // namespace crosslight::gpu

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/time.h"
@@ -53,7 +54,7 @@ void readLimits(DeviceImpl& device) {
 }
 
 std::filesystem::path cacheFileOf(const DeviceImpl& device) {
-  const std::filesystem::path folder = pipelineCacheFolder();
+  const std::filesystem::path folder = cacheFolder();
   if (folder.empty()) return {};
   const auto properties = device.physical.getProperties();
   std::string uuid;

@@ -43,7 +43,7 @@ struct DeviceReport {
 struct DeviceOptions {
   std::string selector;          // "", an index, "lavapipe", or part of a device's name (any case)
   bool validation = false;       // the Khronos layer with synchronization validation; its absence is a DeviceError
-  bool usePipelineCache = true;  // on disk, see pipelineCacheFolder()
+  bool usePipelineCache = true;  // on disk, in cacheFolder()
   bool neverMap = false;         // every upload through a staging copy, as on a device with private memory (for tests)
 };
 
@@ -55,9 +55,6 @@ struct OpenTimes {
 
 // Every Vulkan device with its verdict; empty when there is no driver at all.
 std::vector<DeviceReport> listDevices();
-
-// Where the pipeline cache of hardware drivers lies: $XDG_CACHE_HOME/crosslight (or ~/.cache/crosslight).
-std::filesystem::path pipelineCacheFolder();
 
 // Validation messages that came too late to be thrown (while a device closed). They are logged as errors; a program
 // that finds this above 0 at its end has failed.

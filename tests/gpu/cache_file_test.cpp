@@ -90,20 +90,5 @@ TEST(CacheFile, ConcurrentWritersNeverLeaveAMixture) {
   EXPECT_TRUE(loadCache(path).has_value()) << seen;
 }
 
-TEST(CacheFolder, FollowsTheXdgSpecification) {
-  const char* const home = std::getenv("HOME");
-  const std::string oldHome = home == nullptr ? "" : home;
-  setenv("HOME", "/home/someone", 1);
-  setenv("XDG_CACHE_HOME", "/var/cache/someone", 1);
-  EXPECT_EQ(pipelineCacheFolder(), "/var/cache/someone/crosslight");
-  setenv("XDG_CACHE_HOME", "relative", 1);
-  EXPECT_EQ(pipelineCacheFolder(), "/home/someone/.cache/crosslight");
-  unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(pipelineCacheFolder(), "/home/someone/.cache/crosslight");
-  unsetenv("HOME");
-  EXPECT_EQ(pipelineCacheFolder(), "");
-  if (home != nullptr) setenv("HOME", oldHome.c_str(), 1);
-}
-
 }  // namespace
 }  // namespace crosslight::gpu

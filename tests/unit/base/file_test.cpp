@@ -141,5 +141,20 @@ TEST_F(FileTest, ReportsAFullDiskAndKeepsTheOldFile) {
   EXPECT_EXIT(onFullDisk(), ::testing::ExitedWithCode(0), "");
 }
 
+TEST(CacheFolder, FollowsTheXdgSpecification) {
+  const char* const home = std::getenv("HOME");
+  const std::string oldHome = home == nullptr ? "" : home;
+  setenv("HOME", "/home/someone", 1);
+  setenv("XDG_CACHE_HOME", "/var/cache/someone", 1);
+  EXPECT_EQ(cacheFolder(), "/var/cache/someone/crosslight");
+  setenv("XDG_CACHE_HOME", "relative", 1);
+  EXPECT_EQ(cacheFolder(), "/home/someone/.cache/crosslight");
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_EQ(cacheFolder(), "/home/someone/.cache/crosslight");
+  unsetenv("HOME");
+  EXPECT_EQ(cacheFolder(), "");
+  if (home != nullptr) setenv("HOME", oldHome.c_str(), 1);
+}
+
 }  // namespace
 }  // namespace crosslight
