@@ -5,7 +5,6 @@
 #include "math/numeric.glsl"
 #include "accel/ray.glsl"
 #include "accel/triangle.glsl"
-#include "accel/shape.glsl"
 
 layout(set = 0, binding = kBindCounters, scalar) buffer CounterBlock { uint counters[]; };
 
@@ -47,36 +46,14 @@ PrimitiveTexels fetchPrimitive(uint slot) {
   return PrimitiveTexels(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), a.w, b.w, c.w);
 }
 
-// A shape's own coordinates and the scene's; where no shape is turned or scaled they differ by its center alone. The
-// zero makes -0 into 0, as the product with a matrix does.
-vec3 objectVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.objectFromRender * v : v + 0.0; }
-vec3 renderVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.renderFromObject * v : v + 0.0; }
-// Normals go by the transpose of the inverse; cofactors are that up to a positive factor and the determinant's sign.
-vec3 renderNormal(ShapeRecord s, vec3 n) { return CL_HAS(turnedShapes) ? n * s.objectFromRender : n + 0.0; }
-
-ShapeHit hitShapeInstance(ShapeRecord s, Ray ray) {
-  return hitShape(s.kind, s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction),
-                  ray.tMin, ray.tMax);
-}
-
 // What materials say of a surface that may be cut away or transparent; defined above this room (trace/passed_light.glsl).
 // Share of light that passes: 0 blocks, 1 is not there.
 float passedByTriangle(uint triangle, uint drawId, float b1, float b2);
 float passedByShape(uint drawId, vec2 uv);
 bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2);
-bool isOneSided(uint drawId);
-
-// Shapes without bounds stand outside of the tree, first in the list. Planes are the only ones (the host checks), so the
-// other kinds' code is not inlined once more here.
-ShapeHit hitUnboundedShape(ShapeRecord s, Ray ray) {
-  return hitPlane(s.params, objectVector(s, ray.origin - s.renderCenter), objectVector(s, ray.direction), ray.tMin,
-                  ray.tMax);
-}
 
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
 bool isCloser(float t, uint id, float bestT, uint bestId) { return t < bestT || (t == bestT && id < bestId); }
-
-uint shapeInSlot(uint slot) { return texelFetch(bvhPrimitives, int(3u * slot)).w & ~kPrimitiveIsShape; }
 
 struct Closest {
   HitRecord hit;
@@ -98,28 +75,6 @@ void considerFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear, bool
 
 void considerTriangle(uint slot, Ray ray, RayShear shear, bool cutBackFaces, inout Closest best) {
   considerFetched(fetchPrimitive(slot), slot, ray, shear, cutBackFaces, best);
-}
-
-void considerShapeHit(ShapeRecord s, ShapeHit h, uint shape, Ray ray, bool cutBackFaces, inout Closest best) {
-  uint id = kPrimitiveIsShape | shape;
-  bool cuts = cutBackFaces && frame.twoSided == 0u && (s.flags & kPrimitiveCutsBackFaces) != 0u;
-  bool cut = cuts && dot(h.n, objectVector(s, ray.direction)) > 0.0;
-  bool closer = h.hit && !cut && isCloser(h.t, id, boundOf(best, ray), best.id);
-  if (closer) best = Closest(HitRecord(h.t, kHitShape | shape, 0.0, 0.0), id);
-}
-
-Ray endingAt(Ray ray, float tMax) { return Ray(ray.origin, ray.direction, ray.tMin, tMax, ray.from); }
-
-void considerShape(uint shape, Ray ray, bool cutBackFaces, inout Closest best) {
-  ShapeRecord s = shapeOf(shape);
-  considerShapeHit(s, hitShapeInstance(s, endingAt(ray, boundOf(best, ray))), shape, ray, cutBackFaces, best);
-}
-
-void considerUnboundedShapes(Ray ray, bool cutBackFaces, inout Closest best) {
-  for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
-    ShapeRecord s = shapeOf(i);
-    considerShapeHit(s, hitUnboundedShape(s, endingAt(ray, boundOf(best, ray))), i, ray, cutBackFaces, best);
-  }
 }
 
 // The state of a walk: which child is next, and what waits.
@@ -244,55 +199,8 @@ HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   return best.hit;
 }
 
-// Nearest shape, or the triangle met so far where no shape is nearer; of a triangle and a shape that are equally near,
-// the triangle counts (ids of shapes are greater).
-HitRecord closestShape(Ray ray, bool cutBackFaces, HitRecord sofar) {
-  Closest best = Closest(sofar, sofar.primitive == kNoHit ? kNoId : 0u);
-  if (!isValid(ray)) return sofar;
-  considerUnboundedShapes(ray, cutBackFaces, best);
-  WalkRay w = walkRayOf(ray);
-  Walk walk = Walk(frame.shapeRoot, 0, 0u);
-  do {
-    walkToLeaf(w, boundOf(best, ray), walk);
-    uint count = leafCount(walk);
-    uint slot = walk.next & kBvhFirstMask;
-    uint end = slot + count;
-    do {
-      if (slot < end) considerShape(shapeInSlot(slot), ray, cutBackFaces, best);
-      ++slot;
-    } while (slot < end);
-    leaveLeaf(count, walk);
-  } while (goesOn(walk));
-  countCapped(walk);
-  return best.hit;
-}
-
 float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
   return lightPassedFetched(fetchPrimitive(slot), slot, ray, shear);
-}
-
-bool mayPass(ShapeRecord s) {
-  return (CL_HAS(alphaMask) || CL_HAS(transparency)) && (s.flags & kPrimitiveMayPass) != 0u;
-}
-
-float lightPassedShape(uint shape, Ray ray) {
-  ShapeRecord s = shapeOf(shape);
-  ShapeHit h = hitShapeInstance(s, ray);
-  float passed = 0.0;
-  if (mayPass(s)) passed = passedByShape(s.drawId, h.uv);
-  return h.hit ? passed : 1.0;
-}
-
-float lightPassedUnbounded(Ray ray) {
-  float passed = 1.0;
-  for (uint i = 0u; i < frame.unboundedShapeCount; ++i) {
-    ShapeRecord shape = shapeOf(i);
-    ShapeHit h = hitUnboundedShape(shape, ray);
-    float through = 0.0;
-    if (mayPass(shape)) through = passedByShape(shape.drawId, h.uv);
-    if (h.hit) passed *= through;
-  }
-  return passed;
 }
 
 // Share of light that travels the whole ray: the product over all surfaces in between. Transparent shadows have no
@@ -319,24 +227,5 @@ float lightPassedTriangles(Ray ray) {
   return passed;
 }
 
-// `passed`: what triangles leave.
-float lightPassedShapesByTree(Ray ray, float passed) {
-  passed *= lightPassedUnbounded(ray);
-  WalkRay w = walkRayOf(ray);
-  Walk walk = Walk(passed == 0.0 ? kWalkDone : frame.shapeRoot, 0, 0u);
-  do {
-    walkToLeaf(w, ray.tMax, walk);
-    uint count = leafCount(walk);
-    uint slot = walk.next & kBvhFirstMask;
-    uint end = slot + count;
-    do {
-      if (slot < end) passed *= lightPassedShape(shapeInSlot(slot), ray);
-      ++slot;
-    } while (slot < end);
-    leaveLeaf(count, walk);
-    if (passed == 0.0) walk.next = kWalkDone;
-  } while (goesOn(walk));
-  countCapped(walk);
-  return passed;
-}
+#include "accel/bvh_shapes.glsl"
 #endif

@@ -37,8 +37,4 @@ bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2) {
   bool masked = (m.flags & kMaterialAlphaMask) != 0u;
   return masked && cutByMask(m, alphaAtTriangle(triangle, drawId, b1, b2));
 }
-
-bool isOneSided(uint drawId) {
-  return (materialOf(drawOf(drawId).materialId).flags & kMaterialDoubleSided) == 0u && frame.twoSided == 0u;
-}
 #endif
