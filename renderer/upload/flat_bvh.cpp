@@ -57,14 +57,15 @@ std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const Re
   return flags;
 }
 
-void appendTree(const Bvh& tree, std::uint32_t firstPrimitive, std::vector<shared::BvhNode>& nodes) {
+void appendNodes(const std::vector<shared::BvhNode>& tree, std::uint32_t firstPrimitive,
+                 std::vector<shared::BvhNode>& nodes) {
   const auto firstNode = static_cast<std::uint32_t>(nodes.size());
-  nodes.reserve(nodes.size() + tree.nodes.size());
+  nodes.reserve(nodes.size() + tree.size());
   const auto moved = [&](std::uint32_t child) {
     if (!bvhIsLeaf(child)) return child + firstNode;
     return bvhLeafCount(child) == 0 ? child : child + firstPrimitive;
   };
-  for (shared::BvhNode node : tree.nodes) {
+  for (shared::BvhNode node : tree) {
     node.child0 = moved(node.child0);
     node.child1 = moved(node.child1);
     if (node.parent != shared::kNoId) node.parent += firstNode;
@@ -75,7 +76,7 @@ void appendTree(const Bvh& tree, std::uint32_t firstPrimitive, std::vector<share
 void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, FlatBvh& all) {
   const Bvh shapes = buildBvh(flat.shapeBounds);
   all.shapeRoot = static_cast<std::uint32_t>(all.nodes.size());
-  appendTree(shapes, static_cast<std::uint32_t>(all.primitives.size()), all.nodes);
+  appendNodes(shapes.nodes, static_cast<std::uint32_t>(all.primitives.size()), all.nodes);
   for (const std::uint32_t s : shapes.order) {
     const std::uint32_t shape = flat.unboundedShapeCount + s;
     shared::BvhPrimitive p{};

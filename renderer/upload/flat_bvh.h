@@ -25,8 +25,9 @@ struct FlatBvh {
 
   std::uint64_t sizeBytes() const;
 };
-// Appends a tree behind those before it; its references move along. `firstPrimitive` is added to what its leaves name.
-void appendTree(const Bvh& tree, std::uint32_t firstPrimitive, std::vector<shared::BvhNode>& nodes);
+// Appends trees behind those before them; their references move along. `firstPrimitive` is added to what leaves name.
+void appendNodes(const std::vector<shared::BvhNode>& tree, std::uint32_t firstPrimitive,
+                 std::vector<shared::BvhNode>& nodes);
 // Appends the tree over the bounded shapes, and its primitives.
 void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, FlatBvh& all);
 // What the walk asks of a draw's triangles: kPrimitive*.

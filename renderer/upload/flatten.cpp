@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "effects/material_traits.h"
 #include "scene/shape_mesh.h"
+#include "upload/instance_record.h"
 
 namespace crosslight {
 namespace {
@@ -177,12 +178,7 @@ class Flattener {
 
   // Box of the transformed box, a hair larger than rounding can move a hit point.
   static Bounds boundsOf(const DBounds& box, const Placement& place) {
-    DBounds moved;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p((corner & 1) ? box.upper.x : box.lower.x, (corner & 2) ? box.upper.y : box.lower.y,
-                         (corner & 4) ? box.upper.z : box.lower.z);
-      moved.add(place.linear * p + place.shift);
-    }
+    const DBounds moved = crosslight::moved(box, place.linear, place.shift);
     Bounds result;
     for (int i = 0; i < 3; ++i) {
       // gamma_8 of the largest coordinate: the shaders' point on a shape is off by gamma_6 at most.

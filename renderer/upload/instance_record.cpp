@@ -60,6 +60,16 @@ DBounds boundsOf(const Mesh& mesh) {
   return box;
 }
 
+DBounds moved(const DBounds& box, const glm::dmat3& linear, const glm::dvec3& shift) {
+  DBounds result;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p((corner & 1) ? box.upper.x : box.lower.x, (corner & 2) ? box.upper.y : box.lower.y,
+                       (corner & 4) ? box.upper.z : box.lower.z);
+    result.add(linear * p + shift);
+  }
+  return result;
+}
+
 std::optional<shared::InstanceRecord> objectMap(const glm::dmat4& worldFromObject, const glm::dvec3& origin,
                                                 const DBounds& box) {
   const glm::dmat3 linear(worldFromObject);
@@ -72,13 +82,8 @@ std::optional<shared::InstanceRecord> objectMap(const glm::dmat4& worldFromObjec
   // Scaled first: the determinant of a node scaled by 1e-120 must not vanish. What double loses in the inverse is below
   // a float's rounding of it as long as the margin, which grows with the transform's condition, is as small as asked.
   const glm::dmat3 inverse = glm::inverse(linear / largest) / largest;
-  DBounds moved;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p((corner & 1) ? box.upper.x : box.lower.x, (corner & 2) ? box.upper.y : box.lower.y,
-                       (corner & 4) ? box.upper.z : box.lower.z);
-    moved.add(linear * p + renderShift);
-  }
-  const shared::InstanceRecord record = recordOf(inverse, -(inverse * renderShift), largestCoordinates(moved));
+  const glm::dvec3 reach = largestCoordinates(moved(box, linear, renderShift));
+  const shared::InstanceRecord record = recordOf(inverse, -(inverse * renderShift), reach);
   if (!isFinite(record) || !keepsItsBits(record)) return std::nullopt;
   const glm::dvec3 extent = box.upper - box.lower;
   const double most = kLargestMargin * std::max({extent.x, extent.y, extent.z});

@@ -11,6 +11,8 @@ namespace crosslight {
 
 // Of the primitives that have triangles.
 DBounds boundsOf(const Mesh& mesh);
+// Box of a box that is moved by linear * p + shift.
+DBounds moved(const DBounds& box, const glm::dmat3& linear, const glm::dvec3& shift);
 
 // `box` in object space. Only the map and the margin are filled in. Nothing where the transform has no inverse that
 // floats can say, or where the margin would be more than 1/256 of the box.

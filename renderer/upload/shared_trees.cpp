@@ -26,11 +26,12 @@ bool mayShare(const MeshInstance& instance, const Scene& scene) {
 
 }  // namespace
 
+bool showsItsTree(const Plan& plan) { return plan.has(Effect::transparency) && plan.has(Effect::shadows); }
+
 Sharing planSharing(const Scene& scene, const glm::dvec3& origin, const Plan& plan, const RenderSettings& settings) {
   Sharing sharing;
   if (settings.instances == InstanceMode::flatten) return {false, "--instances flatten", 0, {}};
-  if (plan.has(Effect::transparency) && plan.has(Effect::shadows))
-    return {false, "shadows pass through transparent surfaces", 0, {}};
+  if (showsItsTree(plan)) return {false, "shadows pass through transparent surfaces", 0, {}};
   std::vector<std::vector<std::size_t>> instancesOf(scene.meshes.size());
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -130,7 +131,7 @@ class Builder {
     const std::shared_ptr<const Bvh> source = sources_.over(key, triangles);
     const Bvh& tree = *source;
     const auto root = static_cast<std::uint32_t>(nodes_.size());
-    appendTree(tree, static_cast<std::uint32_t>(triangles_.size()), nodes_);
+    appendNodes(tree.nodes, static_cast<std::uint32_t>(triangles_.size()), nodes_);
     for (const std::uint32_t t : tree.order) {
       shared::InstanceTriangle out{};
       out.i0 = triangles.indices[3 * t];
@@ -188,19 +189,13 @@ class Builder {
   FlatBvh join() {
     FlatBvh all;
     const Bvh tree = buildBvh(boxes_, {.maxLeafSize = 1});
-    appendTree(tree, 0, all.nodes);
+    appendNodes(tree.nodes, 0, all.nodes);
     const auto first = static_cast<std::uint32_t>(all.nodes.size());
     for (const std::uint32_t i : tree.order) {
       all.instances.push_back(records_[i]);
       all.instances.back().root += first;
     }
-    all.nodes.reserve(first + nodes_.size() + 1);
-    for (shared::BvhNode node : nodes_) {
-      if (!bvhIsLeaf(node.child0)) node.child0 += first;
-      if (!bvhIsLeaf(node.child1)) node.child1 += first;
-      if (node.parent != shared::kNoId) node.parent += first;
-      all.nodes.push_back(node);
-    }
+    appendNodes(nodes_, 0, all.nodes);
     all.instanceTriangles = std::move(triangles_);
     appendShapes(flat_, scene_, settings_, all);
     return all;

@@ -21,6 +21,10 @@ struct Sharing {
   std::vector<bool> byMesh;          // per instance of the scene: it uses its mesh's tree, else one over all the rest
 };
 
+// Where shadows multiply what several transparent surfaces let pass, the order of the walk shows in the last bit, and
+// with it which tree was walked.
+bool showsItsTree(const Plan& plan);
+
 // `origin` as for flattenScene(). Under InstanceMode::automatic trees are shared where that saves at least
 // kFewestTrianglesSaved and half of all triangles. Never shared: where shadows multiply what several transparent
 // surfaces let pass, in the order of the walk, which is the tree's; and instances whose transform has no inverse, or
