@@ -133,13 +133,4 @@ bool storeBvh(const BvhCache& cache, const BvhKey& key, const Bvh& bvh, std::uin
   }
 }
 
-Bvh buildCachedTriangleBvh(const BvhTriangles& triangles, const BvhOptions& options, const BvhCache& cache) {
-  if (cache.folder.empty() || triangles.count() < kBvhCachePrimitives) return buildTriangleBvh(triangles, options);
-  const BvhKey key = bvhKey(triangles, options);
-  if (std::optional<Bvh> kept = loadBvh(cache, key, triangles.count(), options.threads)) return *std::move(kept);
-  Bvh bvh = buildTriangleBvh(triangles, options);
-  storeBvh(cache, key, bvh, options.threads);
-  return bvh;
-}
-
 }  // namespace crosslight

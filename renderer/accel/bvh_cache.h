@@ -37,7 +37,4 @@ bool storeBvh(const BvhCache& cache, const BvhKey& key, const Bvh& bvh, std::uin
 // compile, and a file would save nothing.
 inline constexpr std::size_t kBvhCachePrimitives = 200'000;
 
-// From the cache if it is there; else built, and kept for the next time.
-Bvh buildCachedTriangleBvh(const BvhTriangles& triangles, const BvhOptions& options, const BvhCache& cache);
-
 }  // namespace crosslight

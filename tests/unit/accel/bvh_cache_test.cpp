@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "accel/bvh_cache_file.h"
+#include "accel/cached_trees.h"
 #include "base/file.h"
 #include "meshes.h"
 
@@ -295,11 +296,11 @@ TEST_F(BvhCacheTest, BuildsTheSameTreeWithAndWithoutIt) {
   }
   const BvhTriangles triangles{corners, indices};
   const Bvh plain = buildTriangleBvh(triangles);
-  expectSame(plain, buildCachedTriangleBvh(triangles, {}, cache_));
+  expectSame(plain, *CachedTrees(cache_).over(triangles));
   EXPECT_EQ(files().size(), 1u);
-  expectSame(plain, buildCachedTriangleBvh(triangles, {}, cache_));
+  expectSame(plain, *CachedTrees(cache_).over(triangles));
   const BvhTriangles few{corners, std::span(indices).first(300)};
-  buildCachedTriangleBvh(few, {}, cache_);
+  CachedTrees(cache_).over(few);
   EXPECT_EQ(files().size(), 1u) << "small trees are built anew";
 }
 
