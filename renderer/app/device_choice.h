@@ -20,8 +20,9 @@ struct DeviceChoice {
 // --device and --require-device.
 void addDeviceOptions(CommandLine& line, CLI::App& command, DeviceChoice& choice);
 
-// DeviceError with all refusals when there is none. Says so on stderr when the driver runs on the CPU.
+// DeviceError with all refusals when there is none.
 gpu::Device openDevice(const DeviceChoice& choice);
+// Says so on stderr when the driver runs on the CPU.
 void sayIfSoftware(const gpu::DeviceInfo& info);
 
 // Nothing unless the choice names or requires a device; then opens it, as a driver that lists one may fail to make it.

@@ -136,11 +136,14 @@ class Phases {
 struct RenderSession::Impl {
   explicit Impl(gpu::Device& d) : device(d) {}
 
-  PlacedScene& place(const RenderRequest& request, const Sharing& sharing, RenderReport& report, Phases& phases);
-  void make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing, Phases& phases);
-  KeptTrees* keptFor(const RenderRequest& request);
+  PlacedScene& place(const RenderRequest& request, const Plan& plan, const Sharing& sharing, RenderReport& report,
+                     Phases& phases);
+  void make(const RenderRequest& request, const Plan& plan, const glm::dvec3& origin, const Sharing& sharing,
+            Phases& phases);
+  KeptTrees* keptFor(const RenderRequest& request, const Plan& plan);
   CachedTrees* cachedFor(const RenderRequest& request);
-  FlatBvh treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing, TreeRecord& record);
+  FlatBvh treesFor(const RenderRequest& request, const Plan& plan, const FlatScene& flat, const Sharing& sharing,
+                   TreeRecord& record);
   Film& filmFor(const FilmSettings& settings, RenderReport& report);
   std::shared_ptr<KernelPipelines> kernelsFor(const RenderRequest& request, const Plan& plan, const Sharing& sharing,
                                               RenderReport& report);
@@ -155,12 +158,9 @@ struct RenderSession::Impl {
   std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
 };
 
-// Where shadows multiply what several transparent surfaces let pass the order of the walk shows in the last bit, and
-// with it whether a tree was built or moved: there each frame gets its own.
-KeptTrees* RenderSession::Impl::keptFor(const RenderRequest& request) {
-  if (!request.isFrame) return nullptr;
-  const Plan plan = makePlan(*request.scene, request.settings);
-  return plan.has(Effect::transparency) && plan.has(Effect::shadows) ? nullptr : &keptTrees;
+// Where pictures show whether a tree was built or moved each frame gets its own.
+KeptTrees* RenderSession::Impl::keptFor(const RenderRequest& request, const Plan& plan) {
+  return request.isFrame && !showsItsTree(plan) ? &keptTrees : nullptr;
 }
 
 // Not of frames: each has a tree of its own, which no other picture will ask for.
@@ -171,10 +171,10 @@ CachedTrees* RenderSession::Impl::cachedFor(const RenderRequest& request) {
   return cachedTrees.get();
 }
 
-FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const FlatScene& flat, const Sharing& sharing,
-                                      TreeRecord& record) {
+FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const Plan& plan, const FlatScene& flat,
+                                      const Sharing& sharing, TreeRecord& record) {
   FlatBvh trees;
-  const TreeSources sources{keptFor(request), cachedFor(request)};
+  const TreeSources sources{keptFor(request, plan), cachedFor(request)};
   if (sharing.shares) {
     SharedTreesReport report;
     trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, sources);
@@ -198,8 +198,8 @@ FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const FlatSc
   return trees;
 }
 
-void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& origin, const Sharing& sharing,
-                               Phases& phases) {
+void RenderSession::Impl::make(const RenderRequest& request, const Plan& plan, const glm::dvec3& origin,
+                               const Sharing& sharing, Phases& phases) {
   const RenderSettings& settings = request.settings;
   const Scene& scene = *request.scene;
   const bool traced = isTraced(settings.method);
@@ -207,7 +207,7 @@ void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& o
   phases.lap("flatten");
   FlatBvh bvh;
   TreeRecord tree;
-  if (traced) bvh = treesFor(request, flat, sharing, tree);
+  if (traced) bvh = treesFor(request, plan, flat, sharing, tree);
   phases.lap("bvh");
   PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, tree, nullptr};
   placed.counters = {{"triangles", flat.triangleCount()},
@@ -227,8 +227,8 @@ void RenderSession::Impl::make(const RenderRequest& request, const glm::dvec3& o
   }
 }
 
-PlacedScene& RenderSession::Impl::place(const RenderRequest& request, const Sharing& sharing, RenderReport& report,
-                                        Phases& phases) {
+PlacedScene& RenderSession::Impl::place(const RenderRequest& request, const Plan& plan, const Sharing& sharing,
+                                        RenderReport& report, Phases& phases) {
   const RenderSettings key = withoutFilm(request.settings);
   const glm::dvec3 origin = originOf(request);
   const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PlacedScene& p) {
@@ -242,7 +242,7 @@ PlacedScene& RenderSession::Impl::place(const RenderRequest& request, const Shar
     phases.lap("bvh");
   } else {
     while (scenes.size() >= kScenesKept) scenes.pop_back();
-    make(request, origin, sharing, phases);
+    make(request, plan, origin, sharing, phases);
   }
   scenes.front().settings = request.settings;
   return scenes.front();
@@ -301,7 +301,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
   warnOfApproximations(scene, plan, settings);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
-  PlacedScene& placed = impl_->place(request, sharing, report, phases);
+  PlacedScene& placed = impl_->place(request, plan, sharing, report, phases);
   report.counters = placed.counters;
   report.tree = placed.tree;
   Film& film = impl_->filmFor(
