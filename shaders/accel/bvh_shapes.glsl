@@ -4,6 +4,10 @@
 #define CROSSLIGHT_BVH_SHAPES_GLSL
 #include "accel/shape.glsl"
 
+bool isShapeHit(HitRecord hit) {
+  return CL_HAS(shapes) && (!CL_HAS(triangles) || (hit.primitive & kHitShape) != 0u);
+}
+
 // A shape's own coordinates and the scene's; where no shape is turned or scaled they differ by its center alone. The
 // zero makes -0 into 0, as the product with a matrix does.
 vec3 objectVector(ShapeRecord s, vec3 v) { return CL_HAS(turnedShapes) ? s.objectFromRender * v : v + 0.0; }

@@ -3,10 +3,9 @@
 // pass them on by shuffles: control flow must be uniform where shapesAhead is called.
 #ifndef CROSSLIGHT_FEW_SHAPES_GLSL
 #define CROSSLIGHT_FEW_SHAPES_GLSL
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_EXT_control_flow_attributes : require
 #include "accel/bvh.glsl"
+#include "accel/lanes.glsl"
 
 layout(set = 0, binding = kBindShapeBoxes) uniform usamplerBuffer shapeBoxTexels;
 
@@ -16,8 +15,7 @@ const bool kSharesLoads = (specVariant & kVariantSharedLoads) != 0u;
 
 vec3 boxCorner(uvec4 own, uint first, uint corner) {
   if (!kSharesLoads) return uintBitsToFloat(texelFetch(shapeBoxTexels, int(2u * first + corner)).xyz);
-  return uintBitsToFloat(
-      uvec3(subgroupShuffle(own.x, corner), subgroupShuffle(own.y, corner), subgroupShuffle(own.z, corner)));
+  return vectorFromLane(own, corner);
 }
 
 // Bit i: the box of bounded shape i.

@@ -4,21 +4,14 @@
 // body once more before it notices a break. Whoever includes this defines CL_RAYS_PER_LANE.
 #ifndef CROSSLIGHT_PACKET_GLSL
 #define CROSSLIGHT_PACKET_GLSL
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_EXT_control_flow_attributes : require
 #include "accel/bvh.glsl"
+#include "accel/lanes.glsl"
 
 const uint kLanes = 8u;
 const int kRaysPerLane = CL_RAYS_PER_LANE;
 
 uint lane() { return gl_SubgroupInvocationID; }
-
-uint fromLane(uint value, uint from) { return subgroupShuffle(value, from); }
-float fromLane(float value, uint from) { return uintBitsToFloat(subgroupShuffle(floatBitsToUint(value), from)); }
-vec3 vectorFromLane(uvec4 texel, uint from) {
-  return uintBitsToFloat(uvec3(subgroupShuffle(texel.x, from), subgroupShuffle(texel.y, from), subgroupShuffle(texel.z, from)));
-}
 
 // Over the lanes, by exchanges in pairs: the subgroup's own reductions are loops through memory on llvmpipe.
 uint orOverLanes(uint v) {

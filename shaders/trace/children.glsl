@@ -18,11 +18,6 @@ vec3 mirrorRay(vec3 d, vec3 n, vec3 ng) {
   return dot(r, ng) > 0.0 ? r : safeNormalize(reflect(d, ng), ng);
 }
 
-struct Children {
-  uint reflected;
-  uint transmitted;
-};
-
 // Nodes for the rays of all lanes with one atomic per counter: three counts of up to ten bits travel in one word.
 // Returns this lane's first node.
 uint allocateNodes(bool reflects, bool transmits, bool bends) {

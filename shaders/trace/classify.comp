@@ -19,21 +19,16 @@ layout(set = 0, binding = kBindHitClasses) uniform usamplerBuffer hitClassTexels
 
 float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
 
-struct Children {
-  uint reflected;
-  uint transmitted;
-};
 #include "trace/results.glsl"
 
 const uint kRaysPerLane = 4u;  // atomics are dear: one per class for all of a subgroup's rays
 
 uint classOf(HitRecord hit) {
-  bool shape = CL_HAS(shapes) && (!CL_HAS(triangles) || (hit.primitive & kHitShape) != 0u);
+  bool shape = isShapeHit(hit);
   uint draw;
-  if (shape) draw = texelFetch(shapeTexels, int(7u * (hit.primitive & ~kHitShape))).y;
-  else if (kInstances) draw = drawOfTriangle(hit.primitive);
-  else draw = texelFetch(bvhPrimitives, int(3u * hit.primitive + 1u)).w;
-  uvec4 classes = texelFetch(hitClassTexels, int(texelFetch(drawTexels, int(2u * draw)).z));
+  if (shape) draw = shapeOf(hit.primitive & ~kHitShape).drawId;
+  else draw = fetchTriangle(hit.primitive).drawId;
+  uvec4 classes = texelFetch(hitClassTexels, int(drawOf(draw).materialId));
   return shape ? classes.y : classes.x;
 }
 

@@ -83,8 +83,7 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
 // `bothSides`: what secondary rays meet is lit on the side that they see (camera rays keep to the material's rule).
 HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
   HitSurface s;
-  bool shape = CL_HAS(shapes) && (!CL_HAS(triangles) || (hit.primitive & kHitShape) != 0u);
-  if (shape) s = shapeSurface(hit, ray);
+  if (isShapeHit(hit)) s = shapeSurface(hit, ray);
   else s = triangleSurface(hit);
   s.at.frontFacing = dot(s.at.geometricNormal, ray.direction) < 0.0;
   s.at.bothSides = bothSides;

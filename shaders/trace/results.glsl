@@ -4,6 +4,12 @@
 
 const bool kManyLights = (specVariant & kVariantManyLights) != 0u;
 
+// Nodes of the rays that follow, or kNoRayNode.
+struct Children {
+  uint reflected;
+  uint transmitted;
+};
+
 struct Shaded {
   vec3 value;
   float alpha;

@@ -16,8 +16,8 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[]; };
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
-#include "trace/children.glsl"
 #include "trace/results.glsl"
+#include "trace/children.glsl"
 
 const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
 
