@@ -2,7 +2,6 @@
 // same content. Wall time, user CPU time, and the time of tracing alone where a program tells it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 
 #include "base/error.h"
@@ -76,25 +75,13 @@ class Contest {
       const std::string theirs = name_ + "." + peer.name;
       bench_.report.compare(warm, theirs, rounds, Quantity::time);
       bench_.report.compare(cold, theirs, rounds, Quantity::time);
-      compare(warm + ".user", theirs + ".user", rounds);
-      if (peer.traceMs) compare(warm + ".trace", theirs + ".trace", rounds);
+      bench_.report.compare(warm + ".user", theirs + ".user", rounds, Quantity::time);
+      if (peer.traceMs) bench_.report.compare(warm + ".trace", theirs + ".trace", rounds, Quantity::time);
     }
     keepPictures();
   }
 
  private:
-  // CPU time comes in the system's ticks, a peer's own time in its last digit: small pictures may take none.
-  void compare(const std::string& ours, const std::string& theirs, const Rounds& rounds) {
-    const auto tookNone = [&](const std::string& name) {
-      const std::vector<double>& values = rounds.of(name);
-      return std::find(values.begin(), values.end(), 0.0) != values.end();
-    };
-    if (tookNone(ours) || tookNone(theirs)) {
-      return bench_.report.omit(theirs, "it, or ours, was done before the clock had moved");
-    }
-    bench_.report.compare(ours, theirs, rounds, Quantity::time);
-  }
-
   static std::map<std::string, std::string> environment() {
     const std::string threads = std::to_string(peerThreads());
     return {{"LP_NUM_THREADS", threads}, {"OMP_NUM_THREADS", threads}};

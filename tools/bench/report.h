@@ -15,7 +15,8 @@ enum class Quantity { time, rate };
 
 class Report {
  public:
-  // Two series of the same rounds, ours and a peer's. The times of both are added as absolute figures, once each.
+  // Two series of the same rounds, ours and a peer's. The times of both are added as absolute figures, once each. Left
+  // out where one of them took no time that the clock could tell.
   void compare(const std::string& ours, const std::string& against, const Rounds& rounds, Quantity quantity);
   // Median of one series, in milliseconds.
   void addTime(const std::string& name, const Rounds& rounds);
