@@ -8,6 +8,16 @@
 
 layout(set = 0, binding = kBindCounters, scalar) buffer CounterBlock { uint counters[]; };
 
+// What a ray leaves and cannot meet: a slot of the tree, unless the includer knows its surface by another name.
+#ifndef CL_IS_LEFT
+#define CL_IS_LEFT(p, slot, ray) ((slot) == (ray).from)
+#endif
+// Loop passes that the invocation has spent on walks before this one: drivers' limits are of all together.
+#ifndef CL_STEPS_BEFORE
+#define CL_STEPS_BEFORE 0u
+#define CL_STEPS_AFTER(steps)
+#endif
+
 const HitRecord kMiss = HitRecord(0.0, kNoHit, 0.0, 0.0);
 const uint kEmptyChild = kBvhLeaf;   // a leaf of no primitives
 const uint kWalkDone = 0xfffffffeu;  // not a child: index bits beyond any list
@@ -46,7 +56,7 @@ PrimitiveTexels fetchPrimitive(uint slot) {
   return PrimitiveTexels(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), a.w, b.w, c.w);
 }
 
-// What materials say of a surface that may be cut away or transparent; defined above this room (trace/passed_light.glsl).
+// What materials say of a surface that may be cut away or transparent; defined above this room (shade/passed_light.glsl).
 // Share of light that passes: 0 blocks, 1 is not there.
 float passedByTriangle(uint triangle, uint drawId, float b1, float b2);
 float passedByShape(uint drawId, vec2 uv);
@@ -67,7 +77,7 @@ void considerFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear, bool
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, tMax);
   bool back = h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u);
   bool cut = cutBackFaces && back && (p.flags & kPrimitiveCutsBackFaces) != 0u;
-  bool closer = h.hit && slot != ray.from && !cut && isCloser(h.t, p.id, tMax, best.id);
+  bool closer = h.hit && !CL_IS_LEFT(p, slot, ray) && !cut && isCloser(h.t, p.id, tMax, best.id);
   if (CL_HAS(alphaMask) && closer && (p.flags & kPrimitiveMayPass) != 0u)
     closer = !maskCutsTriangle(p.id, p.drawId, h.b1, h.b2);
   if (closer) best = Closest(HitRecord(h.t, slot, h.b1, h.b2), p.id);
@@ -177,7 +187,7 @@ float lightPassedFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear) 
   float passed = 0.0;
   if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
     passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
-  return h.hit && slot != ray.from ? passed : 1.0;
+  return h.hit && !CL_IS_LEFT(p, slot, ray) ? passed : 1.0;
 }
 
 #include "accel/instances.glsl"
@@ -210,7 +220,7 @@ float lightPassedTriangles(Ray ray) {
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
   if (kInstances) return lightPassedInstances(ray);
-  Walk walk = Walk(0u, 0, 0u);
+  Walk walk = Walk(0u, 0, CL_STEPS_BEFORE);
   do {
     walkToLeaf(w, ray.tMax, walk);
     uint count = leafCount(walk);
@@ -224,6 +234,7 @@ float lightPassedTriangles(Ray ray) {
     if (passed == 0.0) walk.next = kWalkDone;
   } while (goesOn(walk));
   countCapped(walk);
+  CL_STEPS_AFTER(walk.steps);
   return passed;
 }
 

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/passed_light.glsl"
+#include "shade/passed_light.glsl"
 #include "trace/camera.glsl"
 
 layout(local_size_x = 64) in;

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/passed_light.glsl"
+#include "shade/passed_light.glsl"
 #include "trace/camera.glsl"
 #define CL_RAYS_PER_LANE 8
 #define CL_ORIGIN_ZERO ((specVariant & kVariantOrthographic) == 0u)

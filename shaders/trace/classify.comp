@@ -9,7 +9,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/passed_light.glsl"
+#include "shade/passed_light.glsl"
 #include "trace/camera.glsl"
 
 layout(local_size_x = 64) in;

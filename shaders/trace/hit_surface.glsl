@@ -2,8 +2,9 @@
 // of rays that leave the surface.
 #ifndef CROSSLIGHT_HIT_SURFACE_GLSL
 #define CROSSLIGHT_HIT_SURFACE_GLSL
-#include "trace/passed_light.glsl"
+#include "shade/passed_light.glsl"
 #include "shade/triangle.glsl"
+#include "accel/leave_point.glsl"
 
 struct HitSurface {
   SurfaceInput at;
@@ -88,13 +89,6 @@ HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
   s.at.frontFacing = dot(s.at.geometricNormal, ray.direction) < 0.0;
   s.at.bothSides = bothSides;
   return s;
-}
-
-// Origin of a ray that leaves the surface towards `direction`: beyond the error bound, on that side. The sum rounds
-// once more, hence the last term.
-vec3 leavePoint(vec3 position, vec3 error, vec3 ng, vec3 direction) {
-  float along = dot(abs(ng), error + gammaBound(2.0) * abs(position));
-  return position + (dot(ng, direction) < 0.0 ? -along : along) * ng;
 }
 
 vec3 leaveSurface(HitSurface s, vec3 direction) {

@@ -4,7 +4,8 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/shadow_ray.glsl"
+#include "trace/hit_surface.glsl"
+#include "shade/shadow_ray.glsl"
 #include "trace/camera.glsl"
 #include "accel/few_shapes.glsl"
 

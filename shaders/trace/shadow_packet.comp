@@ -4,7 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/shadow_ray.glsl"
+#include "trace/hit_surface.glsl"
+#include "shade/shadow_ray.glsl"
 #define CL_RAYS_PER_LANE 8
 #include "accel/packet_occluded.glsl"
 

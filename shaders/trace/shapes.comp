@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
-#include "trace/passed_light.glsl"
+#include "shade/passed_light.glsl"
 #include "trace/camera.glsl"
 #include "accel/few_shapes.glsl"
 

@@ -1,8 +1,9 @@
 // The ray from a surface to a light.
 #ifndef CROSSLIGHT_SHADOW_RAY_GLSL
 #define CROSSLIGHT_SHADOW_RAY_GLSL
-#include "trace/hit_surface.glsl"
+#include "shade/passed_light.glsl"
 #include "shade/shade.glsl"
+#include "accel/leave_point.glsl"
 
 // A blocker within the last 2^-13 of the way counts as the lamp's own housing.
 const float kShadowEnd = 1.0 - 1.0 / 8192.0;
