@@ -12,6 +12,7 @@
 #include "image/image.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+#include "trace/ray_tree.h"
 
 namespace crosslight {
 
@@ -51,6 +52,7 @@ struct RenderReport {
 struct RenderResult {
   Image image;
   RenderReport report;
+  std::optional<RayTree> rayTree = {};  // of RenderRequest::rayTreePixel
 };
 
 // Called with (done, total) of whatever is counted; may be empty. Ctrl-C is looked for between submissions.

@@ -123,6 +123,10 @@ void addOutputOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.text(command, "--json", o.json, "FILE|-", "Write a JSON record of all that was measured; '-' is standard output",
             ValueKind::file)
       ->group("Output");
+  line.text(command, "--ray-tree", o.rayTree, "X,Y",
+            "Write the ray tree of this pixel (whitted), counted from the upper left one, 0,0, beside the picture: "
+            "OUT.tree.json and a drawing, OUT.tree.svg")
+      ->group("Output");
 }
 
 void addManyOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {

@@ -47,6 +47,7 @@ struct RenderOptions {
   bool alpha = false;
   bool allowNonfinite = false;
   std::string json;
+  std::string rayTree;
   std::string progress = "auto";
   DeviceChoice device;
   bool listDevices = false;

@@ -321,6 +321,10 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.timesMs.emplace_back("readback", layersMs + exposed.readbackMs);
   checkFinite(exposed, settings);
   result.image = layers.take();
+  if (request.rayTreePixel && kernels != nullptr) {
+    result.rayTree =
+        traceRayTree(kernels, impl_->device, *placed.onDevice, plan, placed.settings, *request.rayTreePixel);
+  }
 
   report.gpuMs = tally.spansMs();
   report.effects = recordsOf(plan);

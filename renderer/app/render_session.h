@@ -20,7 +20,8 @@ struct RenderRequest {
   bool isFrame = false;                 // others like it follow: trees are kept, and moved where triangles move
   // The image is only shown, through this transform: then it may hold shownCodes instead of samples, the same codes.
   std::optional<DisplayTransform> shownBy = {};
-  BvhCache bvhCache = {};  // where trees of large scenes are kept on disk; no folder: nowhere
+  BvhCache bvhCache = {};                       // where trees of large scenes are kept on disk; no folder: nowhere
+  std::optional<glm::uvec2> rayTreePixel = {};  // whitted: RenderResult::rayTree is wanted
 };
 
 class RenderSession {

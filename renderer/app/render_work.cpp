@@ -6,6 +6,7 @@
 #include "app/output.h"
 #include "app/picture_layers.h"
 #include "app/progress.h"
+#include "app/ray_tree_files.h"
 #include "app/render_record.h"
 #include "app/video_pipe.h"
 #include "base/hash.h"
@@ -49,6 +50,13 @@ void checkOutputKind(const RenderWork& work) {
   }
 }
 
+std::optional<glm::uvec2> checkedRayTree(const RenderWork& work) {
+  if (work.options.rayTree.empty()) return std::nullopt;
+  if (!isTraced(work.settings.method)) throw UsageError("--ray-tree is of rays: add --method whitted");
+  if (!work.frames.empty() || work.part) throw UsageError("--ray-tree is of one picture; it excludes frames and parts");
+  return rayTreePixelOf(work.options.rayTree, work.settings.width, work.settings.height);
+}
+
 PartHeader partHeaderOf(const RenderWork& work, const Scene& scene, const RenderSettings& settings, const Json& record,
                         const Image& image) {
   PartHeader header{settings.width, settings.height, *work.part, Json::object(), work.display};
@@ -75,7 +83,8 @@ Json runPicture(const RenderWork& work, RenderContext& context) {
   append(context.device.takeTimes(), timesMs);
   const std::vector<Band> rows = work.part ? rowsOfPart(*work.part, settings.height) : std::vector<Band>();
   RenderResult result = drawWithProgress(
-      work, context, {scene, settings, rows, fileBytesPerPixel(work), false, shownBy(work), bvhCacheOf(options)});
+      work, context,
+      {scene, settings, rows, fileBytesPerPixel(work), false, shownBy(work), bvhCacheOf(options), work.rayTreePixel});
   append(std::move(result.report.timesMs), timesMs);
   throwIfInterrupted();
 
@@ -87,6 +96,10 @@ Json runPicture(const RenderWork& work, RenderContext& context) {
     writePart(options.output, partHeaderOf(work, *scene, settings, record, result.image), result.image);
   } else {
     writeImage(options.output, result.image, work.display);
+  }
+  if (result.rayTree) {
+    writeRayTree(options.output, *result.rayTree, *scene);
+    record["rayTree"] = rayTreeFilesOf(options.output).json.string();
   }
   timesMs.emplace_back("encode", lap.lapMs());
   timesMs.emplace_back("total", total.elapsedMs());
@@ -111,12 +124,17 @@ RenderWork checkedWork(const RenderOptions& options) {
   checkOutputKind(work);
   work.settings = checkedSettings(options);
   work.display = checkedDisplay(options);
+  work.rayTreePixel = checkedRayTree(work);
   return work;
 }
 
 void checkPlaces(const RenderWork& work) {
   checkOutputPlace(work.options.output);
   checkRecordPlace(work.options.json);
+  if (work.rayTreePixel) {
+    const RayTreeFiles files = rayTreeFilesOf(work.options.output);
+    for (const auto& file : {files.json, files.svg}) checkOutputPlace(file);
+  }
   if (isVideo(work.options.output)) findVideoEncoder();
 }
 

@@ -22,6 +22,7 @@ struct RenderWork {
   DisplayTransform display;
   std::vector<Frame> frames;  // empty: one picture
   std::optional<Part> part;
+  std::optional<glm::uvec2> rayTreePixel;
 };
 
 // Everything that can be said before a file is looked at; UsageError.

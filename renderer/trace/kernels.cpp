@@ -222,6 +222,8 @@ void KernelPipelines::wait() {
   while (!pending_.empty()) get(KernelKey(pending_.begin()->first));
 }
 
+gpu::Constants KernelPipelines::constants() const { return constantsOf(plan_, variant_); }
+
 gpu::ComputePipeline KernelPipelines::makeOn(const gpu::Device& device, const gpu::BindingLayout& layout,
                                              const KernelKey& key) const {
   const Plan& plan = key.hitClass ? classes_.classes[*key.hitClass].plan : plan_;

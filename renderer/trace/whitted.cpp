@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "trace/level_recorder.h"
 #include "trace/ray_store.h"
 
 namespace crosslight {
@@ -24,7 +25,7 @@ constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 class Whitted final : public Technique {
  public:
   Whitted(const gpu::Device& device, GpuScene& scene, const Plan& plan, const RenderSettings& settings,
-          FilmBuffers& buffers, std::shared_ptr<KernelPipelines> kernels)
+          FilmBuffers& buffers, std::shared_ptr<KernelPipelines> kernels, std::uint32_t cameraRays)
       : device_(device),
         scene_(scene),
         settings_(settings),
@@ -33,7 +34,7 @@ class Whitted final : public Technique {
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
         classes_(kernels_->classes().classes),
-        store_(device, storeSize(), kernels_->classes()),
+        store_(device, storeSize(cameraRays), kernels_->classes()),
         set_(device, kernels_->layout()),
         commands_(device) {
     scene_.bind(set_);
@@ -54,6 +55,18 @@ class Whitted final : public Technique {
     }
   }
 
+  // The tree of one camera ray, by its place in the tile order of the band; what is left of it is the recorder's.
+  void traceOne(const SampleRequest& request, std::uint32_t place, LevelRecorder& recorder) {
+    scene_.setSample(request.offset);
+    recorder.bind(store_);
+    recorder_ = &recorder;
+    Tally unused;
+    while (!traceChunk(request, place, 1, unused)) throwIfInterrupted();
+    recorder_ = nullptr;
+  }
+
+  std::uint32_t nodeCapacity() const { return store_.capacity; }
+
   std::string promise() const override {
     return "E | L[DS_glossy]?S*E: direct light with hard shadows, seen directly or through mirrors and smooth "
            "dielectrics; no light that reaches a surface by way of another";
@@ -69,8 +82,8 @@ class Whitted final : public Technique {
   }
 
  private:
-  RayStoreSize storeSize() const {
-    return {.cameraRays = cameraRayCount(settings_.width, settings_.height),
+  RayStoreSize storeSize(std::uint32_t cameraRays) const {
+    return {.cameraRays = cameraRays,
             .lights = scene_.lightCount(),
             .tree = branches_ && settings_.maxDepth > 0,
             .branches = branches_,
@@ -188,6 +201,7 @@ class Whitted final : public Technique {
       push.firstLight = first;
       push.lightCount = std::min(store_.batch, lights - first);
       shadeLevel(push, primary && aovs ? kVariantAovs : 0);
+      if (recorder_ != nullptr) recorder_->record(commands_, push);
     }
     submit(tally);
   }
@@ -262,12 +276,21 @@ class Whitted final : public Technique {
   RayStore store_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
+  LevelRecorder* recorder_ = nullptr;
   bool packetsGiveUp_ = false;  // some do in this scene: what they leave is done again
   std::map<std::string, std::uint64_t> rays_;
   std::uint64_t levels_ = 0, repeated_ = 0, capped_ = 0, gaveUp_ = 0;
 };
 
 }  // namespace
+
+// Place of a pixel within its tile: shaders/trace/camera.glsl.
+static std::uint32_t mortonOf(const glm::uvec2& within) {
+  std::uint32_t place = 0;
+  for (std::uint32_t bit = 0; bit < 3; ++bit)
+    place |= ((within.x >> bit & 1u) << (2 * bit)) | ((within.y >> bit & 1u) << (2 * bit + 1));
+  return place;
+}
 
 std::uint32_t cameraRayCount(std::uint32_t width, std::uint32_t height) {
   const auto tiles = [](std::uint32_t pixels) { return (pixels + kTileSize - 1) / kTileSize; };
@@ -278,7 +301,33 @@ std::unique_ptr<Technique> makeWhittedWith(std::shared_ptr<KernelPipelines> kern
                                            GpuScene& scene, const Plan& plan, const RenderSettings& settings,
                                            FilmBuffers& buffers) {
   kernels->wait();
-  return std::make_unique<Whitted>(device, scene, plan, settings, buffers, std::move(kernels));
+  return std::make_unique<Whitted>(device, scene, plan, settings, buffers, std::move(kernels),
+                                   cameraRayCount(settings.width, settings.height));
+}
+
+RayTree traceRayTree(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device, GpuScene& scene,
+                     const Plan& plan, const RenderSettings& settings, const glm::uvec2& pixel) {
+  kernels->wait();
+  FilmBuffers buffers;
+  const std::uint64_t bandPixels = std::uint64_t{settings.width} * kTileSize;
+  const auto buffer = [&](const char* name, std::uint64_t bytes) {
+    return gpu::Buffer(device, name, bytes, gpu::useStorage | gpu::useReadback);
+  };
+  buffers.sampleColor = buffer("sample", bandPixels * sizeof(glm::vec4));
+  buffers.aovs = buffer("AOV records", sizeof(AovRecord));
+  buffers.counters = gpu::Buffer::of(device, "counters", std::vector<std::uint32_t>(kCounterCount, 0u),
+                                     gpu::useStorage | gpu::useReadback);
+  Whitted tracer(device, scene, plan, settings, buffers, kernels, 1);
+  LevelRecorder recorder(device, *kernels, scene, tracer.nodeCapacity());
+  const std::uint32_t firstRow = pixel.y / kTileSize * kTileSize;
+  const Band band{firstRow, std::min(kTileSize, settings.height - firstRow)};
+  const glm::uvec2 within(pixel.x % kTileSize, pixel.y - firstRow);
+  const std::uint32_t place = pixel.x / kTileSize * kTileSize * kTileSize + mortonOf(within);
+  tracer.traceOne({band, settings.width, glm::vec2(0.5f)}, place, recorder);
+  glm::vec4 color;
+  buffers.sampleColor.read((std::uint64_t{within.y} * settings.width + pixel.x) * sizeof(color),
+                           std::as_writable_bytes(std::span(&color, 1)));
+  return assembleRayTree(recorder, scene.lightCount(), scene.flat().origin, color, branches(plan), pixel);
 }
 
 std::unique_ptr<Technique> makeWhitted(const gpu::Device& device, GpuScene& scene, const Plan& plan,

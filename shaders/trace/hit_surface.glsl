@@ -91,6 +91,11 @@ HitSurface surfaceOfHit(HitRecord hit, Ray ray, bool bothSides) {
   return s;
 }
 
+// Within a refracting body.
+bool isInterior(HitSurface s) {
+  return CL_HAS(refraction) && !s.at.frontFacing && (materialOf(s.at.materialId).flags & kMaterialRefracts) != 0u;
+}
+
 vec3 leaveSurface(HitSurface s, vec3 direction) {
   return leavePoint(s.at.renderPos, s.positionError, s.at.geometricNormal, direction);
 }

@@ -68,7 +68,7 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   SurfacePoint s = surfaceAt(h.at);
   LightSums sums = illuminate(s, towardsViewer(ray, s.position), pushed.firstLight, pushed.lightCount);
   // Inside a refracting body no light arrives but along the rays that the tree follows.
-  bool interior = CL_HAS(refraction) && !h.at.frontFacing && (materialOf(h.at.materialId).flags & kMaterialRefracts) != 0u;
+  bool interior = isInterior(h);
   if (interior) sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   ShadedParts parts = compose(s, sums, firstBatch && !interior ? frame.ambient : vec3(0.0));
   if (!firstBatch) parts.emission = vec3(0.0);

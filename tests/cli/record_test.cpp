@@ -27,6 +27,17 @@ class Records : public CliTest {
   }
 };
 
+TEST_F(Records, rayTreeLiesBesideThePicture) {
+  const json record = onStdout(
+      {"render", scene(), "-o", "a.png", "-r", "20x10", "--method", "whitted", "--ray-tree", "10,5", "--json", "-"});
+  EXPECT_EQ(record["rayTree"], "a.tree.json");
+  const json tree = json::parse(read("a.tree.json"));
+  EXPECT_EQ(tree["pixel"], json({10, 5}));
+  EXPECT_EQ(tree["nodes"][0]["ray"], "primary");
+  EXPECT_THAT(read("a.tree.svg"), testing::StartsWith("<svg"));
+  EXPECT_THAT(files(), testing::ElementsAre("a.png", "a.tree.json", "a.tree.svg"));
+}
+
 TEST_F(Records, renderTellsWhatWasMeasured) {
   const json record = onStdout({"render", scene(), "-o", "a.exr", "-r", "20x10", "--spp", "2", "--seed", "9",
                                 "--method", "whitted", "--aov", "depth", "--json", "-"});
