@@ -98,6 +98,40 @@ Json lightJson(const Light& light) {
   return json;
 }
 
+const char* nameOf(FogMode mode) {
+  switch (mode) {
+    case FogMode::none:
+      return "none";
+    case FogMode::linear:
+      return "linear";
+    case FogMode::exp:
+      return "exp";
+    case FogMode::exp2:
+      break;
+  }
+  return "exp2";
+}
+
+std::string airLine(const Atmosphere& a) {
+  if (!hasFog(a)) return "clear";
+  const glm::vec3& c = a.fogColor;
+  const std::string extent = a.fogMode == FogMode::linear ? fmt::format("from {:g} to {:g}", a.fogStart, a.fogEnd)
+                                                          : fmt::format("density {:g} per unit", a.fogDensity);
+  return fmt::format("{} fog, {}, color {:g} {:g} {:g}", nameOf(a.fogMode), extent, c.x, c.y, c.z);
+}
+
+Json fogJson(const Atmosphere& a) {
+  if (!hasFog(a)) return nullptr;
+  Json json = {{"mode", nameOf(a.fogMode)}, {"color", vectorJson(a.fogColor)}};
+  if (a.fogMode == FogMode::linear) {
+    json["start"] = a.fogStart;
+    json["end"] = a.fogEnd;
+  } else {
+    json["density"] = a.fogDensity;
+  }
+  return json;
+}
+
 Json materialJson(const Material& material) {
   return {{"name", material.name},
           {"model", nameOf(material.model)},
@@ -137,6 +171,7 @@ std::string sceneTable(const Scene& scene) {
     const glm::dvec3 &a = scene.worldBounds.lower, &b = scene.worldBounds.upper;
     text += row("bounds", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g}", a.x, a.y, a.z, b.x, b.y, b.z));
   }
+  text += row("air", airLine(scene.atmosphere));
   text += row("images", fmt::format("{}", scene.images.size()));
   text += row("animations", fmt::format("{}", stats.animations));
   text += row("memory", fmt::format("{:.1f} MiB on the host", static_cast<double>(hostBytesOf(scene)) / (1 << 20)));
@@ -173,6 +208,7 @@ Json sceneJson(const Scene& scene) {
   json["extensions"] = stats.extensionsUsed;
   json["defaultCamera"] = scene.defaultCamera;
   json["defaultLight"] = scene.defaultLight;
+  json["fog"] = fogJson(scene.atmosphere);
   json["cameras"] = json["lights"] = json["materials"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(cameraJson(camera));
   for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));

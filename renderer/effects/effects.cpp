@@ -28,6 +28,11 @@ std::set<int> usedMaterials(const Scene& scene, bool shapesAreTraced) {
   return used;
 }
 
+std::string describeFog(const Atmosphere& a) {
+  if (a.fogMode == FogMode::linear) return fmt::format("linear from {:g} to {:g}", a.fogStart, a.fogEnd);
+  return fmt::format("{} of density {:g}", a.fogMode == FogMode::exp ? "exp" : "exp2", a.fogDensity);
+}
+
 class Analysis {
  public:
   Analysis(const Scene& scene, const RenderSettings& settings)
@@ -44,6 +49,7 @@ class Analysis {
     vertexColors();
     sides();
     whatRaysDo();
+    air();
     promote();
     return std::move(plan_);
   }
@@ -170,6 +176,11 @@ class Analysis {
                                        : (lit ? fmt::format("{} lights cast shadows", scene_.lights.size())
                                               : "the scene has no light")));
     for (const MaterialRule& rule : rayRules()) addRayRule(rule);
+  }
+
+  void air() {
+    const Atmosphere& a = scene_.atmosphere;
+    add(Effect::fog, "fog", hasFog(a), hasFog(a) ? "the scene has fog: " + describeFog(a) : "the scene has no fog");
   }
 
   // Mirrored and refracted rays meet surfaces from behind, which must then be lit from behind.

@@ -230,7 +230,7 @@ class Raster final : public Technique {
     }
     targets.color = targets_.multisampled ? &targets_.multisampled : &targets_.picture;
     targets.resolve = targets_.multisampled ? &targets_.picture : nullptr;
-    targets.clearValue = glm::vec4(scene_.scene().atmosphere.background, 0.0f);
+    targets.clearValue = glm::vec4(seenBackground(scene_.scene().atmosphere, settings_), 0.0f);
     if (background_) targets.colorBefore = gpu::ColorBefore::undefined;
     beginStrip(targets, strip);
     drawCalls(opaque_, lists_.opaque, 0);

@@ -45,7 +45,6 @@ void readFog(const JsonAt& fog, Atmosphere& atmosphere) {
     fog.fail(
         fmt::format("linear fog needs an end beyond its start {:g}, has {:g}", atmosphere.fogStart, atmosphere.fogEnd));
   }
-  fog.warn("is read, but fog is not simulated yet");
 }
 
 ShapeKind kindOf(const JsonAt& kind) {

@@ -165,8 +165,14 @@ struct Atmosphere {
   glm::vec3 background{0.0f};  // linear
   FogMode fogMode = FogMode::none;
   glm::vec3 fogColor{0.5f};
-  double fogStart = 0.0, fogEnd = 1.0, fogDensity = 1.0;
+  double fogStart = 0.0, fogEnd = 1.0;  // scene units, linear
+  double fogDensity = 1.0;              // per scene unit, exp and exp2
 };
+
+// Fog without density hides nothing, at any distance.
+inline bool hasFog(const Atmosphere& a) {
+  return a.fogMode == FogMode::linear || (a.fogMode != FogMode::none && a.fogDensity > 0.0);
+}
 
 struct DBounds {
   glm::dvec3 lower{std::numeric_limits<double>::infinity()};

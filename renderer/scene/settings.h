@@ -13,6 +13,7 @@ enum class PixelFilter { box, tent, gaussian };          // radius 0.5, 1 and 1.
 enum class KernelFamily { automatic, perLane, packet };  // of the ray kernels: same hits, other speed
 enum class InstanceMode { automatic, flatten, share };   // trees of instances (rays): same hits
 enum class HitQueues { automatic, on, off };             // of hits by what their surfaces ask for: same image
+enum class FogDistance { ray, depth };                   // what fog goes by: the way of the light, or eye depth
 enum class TwoSided { material, always };                // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
@@ -32,6 +33,7 @@ struct RenderSettings {
   bool reflection = true;                            // whitted
   bool refraction = true;                            // whitted; off: transmitted light goes straight on
   bool infiniteViewer = false;
+  FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;
   bool hiddenLines = false;        // wireframe: draw hidden edges too

@@ -1,5 +1,6 @@
 #include "upload/records.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -150,6 +151,33 @@ std::vector<shared::LightRecord> makeLightRecords(const Scene& scene, const glm:
   return records;
 }
 
+namespace {
+
+void setFog(const Atmosphere& a, const RenderSettings& settings, shared::FrameRecord& f) {
+  if (!hasFog(a)) return;
+  f.fogMode = static_cast<std::uint32_t>(a.fogMode);
+  const auto finite = [](double x) {  // shaders multiply it by zero
+    return static_cast<float>(std::min(x, static_cast<double>(std::numeric_limits<float>::max())));
+  };
+  const bool linear = a.fogMode == FogMode::linear;
+  f.fogColor = a.fogColor;
+  f.fogScale = finite(linear ? 1.0 / (a.fogEnd - a.fogStart) : a.fogDensity);
+  f.fogEnd = finite(a.fogEnd);
+  f.fogByDepth = settings.fogDistance == FogDistance::depth ? 1u : 0u;
+}
+
+static_assert(static_cast<std::uint32_t>(FogMode::none) == shared::kFogNone);
+static_assert(static_cast<std::uint32_t>(FogMode::linear) == shared::kFogLinear);
+static_assert(static_cast<std::uint32_t>(FogMode::exp) == shared::kFogExp);
+static_assert(static_cast<std::uint32_t>(FogMode::exp2) == shared::kFogExp2);
+
+}  // namespace
+
+glm::vec3 seenBackground(const Atmosphere& atmosphere, const RenderSettings& settings) {
+  const bool covered = settings.fogDistance == FogDistance::ray && hasFog(atmosphere);
+  return covered ? atmosphere.fogColor : atmosphere.background;
+}
+
 glm::dvec3 renderOrigin(const Camera& camera) { return glm::dvec3(camera.worldFromCamera[3]); }
 
 shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& settings, const glm::vec2& sampleOffset) {
@@ -198,7 +226,8 @@ shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& se
   f.lightCount = static_cast<std::uint32_t>(scene.lights.size());
   f.twoSided = settings.twoSided == TwoSided::always ? 1u : 0u;
   f.ambient = scene.atmosphere.ambient;
-  f.background = scene.atmosphere.background;
+  f.background = seenBackground(scene.atmosphere, settings);
+  setFog(scene.atmosphere, settings, f);
   return f;
 }
 

@@ -23,6 +23,9 @@ std::vector<shared::LightRecord> makeLightRecords(const Scene& scene, const glm:
 // World position that becomes zero: the camera's own.
 glm::dvec3 renderOrigin(const Camera& camera);
 
+// What is seen where nothing is: fog that goes by the way of the light covers the background, however thin it is.
+glm::vec3 seenBackground(const Atmosphere& atmosphere, const RenderSettings& settings);
+
 // `sampleOffset` within the pixel, (0.5, 0.5) its center; may leave [0,1) for filters wider than a pixel.
 shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& settings, const glm::vec2& sampleOffset);
 

@@ -42,6 +42,13 @@ float logOneMinus(float h) {
   return h < 0.03125 ? series : log(1.0 - h);
 }
 
+// 1 - exp(-x) for x >= 0. The series (to x^7) is within 1e-7 relative below 0.25, where the difference would cancel.
+float oneMinusExp(float x) {
+  float series = 1.0 - x * 0.2 * (1.0 - x * 0.16666667 * (1.0 - x * 0.14285714));
+  series = x * (1.0 - x * 0.5 * (1.0 - x * 0.33333333 * (1.0 - x * 0.25 * series)));
+  return x < 0.25 ? series : 1.0 - exp(-x);
+}
+
 // max(a.b, 0)^n for unit a, b and n >= 0, with 0^0 = 1 for a.b > 0 only. Written as exp(n log(1 - |a-b|^2 / 2)):
 // pow(dot(a, b), n) loses n ulp of the cosine, this keeps the absolute error below 1e-6 for every n.
 float powerOfCosine(vec3 a, vec3 b, float n) {

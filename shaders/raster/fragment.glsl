@@ -4,6 +4,7 @@
 #include "shared/scene_bindings.glsl"
 #include "raster/draw.glsl"
 #include "shade/shade.glsl"
+#include "shade/fog.glsl"
 #include "shade/triangle.glsl"
 #include "raster/fragment_in.glsl"
 
@@ -76,6 +77,14 @@ vec3 litColor(SurfaceInput at, SurfacePoint s) {
 }
 #endif
 
+#ifndef CL_AOV
+// `behind`: share of what lies behind that shows.
+vec3 seenThroughAir(vec3 color, float behind, vec3 renderPos) {
+  if (CL_HAS(fog)) return throughFog(color, vec3(behind), fogOver(fogDistance(renderPos)));
+  return color;
+}
+#endif
+
 #ifdef CL_AOV
 void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
   uint pixel = uint(gl_FragCoord.y) * frame.resolution.x + uint(gl_FragCoord.x) - pushed.firstPixel;
@@ -108,13 +117,14 @@ void main() {
 #ifdef CL_AOV
   record(at, s, compose(s, lighting(s), frame.ambient));
 #elif defined(CL_CODES)  // nothing is transparent
-  outCodes = shownCodes(litColor(at, s));
+  outCodes = shownCodes(seenThroughAir(litColor(at, s), 0.0, at.renderPos));
 #ifdef CL_FLAT_CODES
   if (kShownByVertex) outCodes = gl_FrontFacing || !CL_HAS(twoSided) ? litSums[0].x : litSums[kBack].x;
 #endif
 #else
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   float through = CL_HAS(transparency) ? maxComponent(s.transmissionColor) * float(s.model == kModel_cookTorrance) : 0.0;
-  outColor = vec4(litColor(at, s) * opacity, opacity * (1.0 - through));
+  float alpha = opacity * (1.0 - through);
+  outColor = vec4(seenThroughAir(litColor(at, s) * opacity, 1.0 - alpha, at.renderPos), alpha);
 #endif
 }

@@ -21,7 +21,8 @@
   X(12, absorption)              \
   X(13, shapes)                  \
   X(14, triangles)               \
-  X(15, turnedShapes)
+  X(15, turnedShapes)            \
+  X(16, fog)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
@@ -119,13 +120,14 @@ CL_SIZE(RayRecord, 48)
 
 // What comes back along a ray. Three texels; kept only when the plan's surfaces send rays on.
 struct RayNode {
-  vec3 value;   // radiance; once gathered with the children's and times the weight
-  float alpha;  // coverage of what the ray meets
-  vec3 weight;  // share of the value in the parent's
+  vec3 value;         // radiance; once gathered with the children's and times the weight
+  float alpha;        // coverage of what the ray meets
+  vec3 weight;        // share of the value in the parent's
+  float travelled;    // scene units through fog before the ray's origin: of the rays that it goes straight on from
+  uint reflected;     // node of the reflected child, or kNoRayNode
+  uint transmitted;   // node of the refracted or straight-through child, or kNoRayNode
+  uint seenDirectly;  // 1: only straight-through surfaces lie between the camera and the ray. With fog only
   uint unused;
-  uint reflected;    // node of the reflected child, or kNoRayNode
-  uint transmitted;  // node of the refracted or straight-through child, or kNoRayNode
-  uint unused1, unused2;
 };
 CL_SIZE(RayNode, 48)
 CL_CONST uint kNoRayNode = 0xffffffffu;

@@ -143,9 +143,18 @@ struct FrameRecord {
   uint twoSided;             // 1: light and show both sides of every surface
   uint meshDrawCount;        // DrawRecords of triangles: the first ones
   vec3 ambient;              // Ia
-  vec3 background;
+  vec3 background;           // covered by the fog where that reaches it
+  vec3 fogColor;
+  uint fogMode;     // kFog*
+  float fogScale;   // exp, exp2: density per scene unit; linear: 1 / (end - start)
+  float fogEnd;     // linear: distance from which on nothing else is seen
+  uint fogByDepth;  // 1: by the distance along cameraForward, as OpenGL has it; 0: along the ray
 };
-CL_SIZE(FrameRecord, 188)
+CL_SIZE(FrameRecord, 216)
+CL_CONST uint kFogNone = 0u;
+CL_CONST uint kFogLinear = 1u;
+CL_CONST uint kFogExp = 2u;
+CL_CONST uint kFogExp2 = 3u;
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {

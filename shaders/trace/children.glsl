@@ -8,6 +8,8 @@ struct NewRay {
   vec3 weight;
   uint kind;
   uint medium;
+  float travelled;  // RayNode has it
+  bool seenDirectly;
 };
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
@@ -44,6 +46,10 @@ uint storeRay(uint slot, RayRecord parent, HitSurface h, NewRay ray) {
   rays[slot] = RayRecord(leaveSurface(h, ray.direction), 0.0, ray.direction, kLargest, h.slot, ray.medium, ray.kind,
                          parent.depth + 1u);
   nodes[slot].weight = ray.weight;
+  if (CL_HAS(fog)) {
+    nodes[slot].travelled = ray.travelled;
+    nodes[slot].seenDirectly = ray.seenDirectly ? 1u : 0u;
+  }
   return slot;
 }
 
@@ -56,7 +62,9 @@ Children addRays(RayRecord parent, HitSurface h, NewRay mirrored, NewRay onward)
   return children;
 }
 
-Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
+// `passed` is set to the share of the ray that goes straight on: its fog is counted farther on.
+Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog fog, out vec3 passed) {
+  passed = vec3(0.0);
   if (ray.depth >= pushed.maxDepth) return Children(kNoRayNode, kNoRayNode);
   MaterialRecord m = materialOf(h.at.materialId);
   vec3 d = safeNormalize(ray.direction, vec3(0.0, 0.0, 1.0));
@@ -95,7 +103,13 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s) {
   throughWeight += vec3(behind);
   uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
   bool bent = bends && !thin;
-  NewRay through = NewRay(onward, throughWeight, bent ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium);
-  return addRays(ray, h, NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium), through);
+  if (CL_HAS(fog)) {
+    mirrorWeight *= fog.fog.clear;
+    if (bent) throughWeight *= fog.fog.clear;
+    else passed = throughWeight;
+  }
+  NewRay through = NewRay(onward, throughWeight, bent ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
+                          bent ? 0.0 : fog.distance, !bent && fog.seenDirectly);
+  return addRays(ray, h, NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false), through);
 }
 #endif

@@ -17,6 +17,7 @@ layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[];
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
 #include "trace/results.glsl"
+#include "trace/fogged.glsl"
 #include "trace/children.glsl"
 
 const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
@@ -62,6 +63,13 @@ vec3 absorbed(uint medium, float distance) {
   return m.attenuationDistance > 0.0 ? remaining : vec3(1.0);
 }
 
+// The way to the hit led through a refracting body.
+bool isInsideBody(RayRecord ray, HitSurface h) {
+  const uint kBody = kMaterialRefracts | kMaterialThin;
+  bool leavesBody = !h.at.frontFacing && (materialOf(h.at.materialId).flags & kBody) == kMaterialRefracts;
+  return CL_HAS(refraction) && (ray.medium != kNoRayNode || leavesBody);
+}
+
 Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   bool firstBatch = !kManyLights || pushed.firstLight == 0u;
   HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
@@ -75,10 +83,17 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   if (kWritesAovs && ray.kind == kRayPrimary) recordAov(pixel, h, s, parts, firstBatch);
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode));
+  SegmentFog fog = SegmentFog(0.0, true, Fog(1.0, 0.0));
+  if (CL_HAS(fog)) fog = fogAtHit(pushed.firstNode + shaded_, ray, hit.t, isInsideBody(ray, h));
+  vec3 passed = vec3(0.0);
   if (kBranches && firstBatch) {
     if (CL_HAS(absorption) && ray.medium != kNoRayNode)
       shaded.weightScale = absorbed(ray.medium, hit.t * length(ray.direction));
-    shaded.children = spawnChildren(ray, h, s);
+    shaded.children = spawnChildren(ray, h, s, fog, passed);
+  }
+  if (CL_HAS(fog)) {
+    if (!firstBatch) fog.fog.fogged = 0.0;
+    shaded.value = throughFog(shaded.value, passed, fog.fog);
   }
   return shaded;
 }

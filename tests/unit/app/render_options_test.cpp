@@ -18,7 +18,7 @@ using testing::SizeIs;
 // Every setting that --set may touch.
 auto touched(const RenderSettings& s) {
   return std::tuple(s.shadows, s.reflection, s.refraction, s.flatVertex, s.hiddenLines, s.infiniteViewer, s.twoSided,
-                    s.clampVertexColors, s.hitQueues);
+                    s.clampVertexColors, s.hitQueues, s.fogDistance);
 }
 
 std::string messageOf(const std::function<void()>& action) {

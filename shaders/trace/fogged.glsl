@@ -1,0 +1,28 @@
+// Fog on the segments of the ray tree. A ray that goes straight on continues the segment of its parent, so that fog
+// which is no exponential of the distance looks the same as in raster; mirrored and refracted rays begin anew, and what
+// they bring is seen through the parent's fog. Inside of refracting bodies there is none.
+#ifndef CROSSLIGHT_FOGGED_GLSL
+#define CROSSLIGHT_FOGGED_GLSL
+#include "shade/fog.glsl"
+
+struct SegmentFog {
+  float distance;      // up to the hit, from where the segment began
+  bool seenDirectly;
+  Fog fog;
+};
+
+// Eye depth is for what the camera sees directly; what mirrors show has none, and goes by the way of the light.
+SegmentFog fogAtHit(uint node, RayRecord ray, float t, bool insideBody) {
+  bool first = !kBranches || ray.kind == kRayPrimary;
+  bool direct = first;
+  float before = 0.0;
+  if (kBranches && !first) {
+    before = nodes[node].travelled;
+    direct = nodes[node].seenDirectly != 0u;
+  }
+  float along = direct && frame.fogByDepth != 0u ? dot(ray.direction, frame.cameraForward) : safeLength(ray.direction);
+  float distance = before + t * along;
+  Fog fog = fogOver(distance);
+  return SegmentFog(distance, direct, insideBody ? Fog(1.0, 0.0) : fog);
+}
+#endif
