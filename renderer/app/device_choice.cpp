@@ -12,6 +12,27 @@ namespace {
 
 std::string inMiB(std::uint64_t bytes) { return fmt::format("{} MiB", bytes >> 20); }
 
+// What --kernel can have besides what is taken, and what it cannot, with the reason.
+std::string otherKernels(const gpu::DeviceInfo& info) {
+  std::string text;
+  for (const std::string& name : kernelFamilyNames()) {
+    const KernelFamily family = kernelFamilyOf(name);
+    if (family == KernelFamily::automatic || family == familyFor(info)) continue;
+    const std::string reason = whyNot(family, info);
+    text += fmt::format("            --kernel {}: {}\n", name, reason.empty() ? describe(family) : "no, it " + reason);
+  }
+  return text;
+}
+
+Json familiesJson(const gpu::DeviceInfo& info) {
+  Json json = Json::object();
+  for (const std::string& name : kernelFamilyNames()) {
+    const KernelFamily family = kernelFamilyOf(name);
+    if (family != KernelFamily::automatic) json[name] = whyNot(family, info);
+  }
+  return json;
+}
+
 }  // namespace
 
 void addDeviceOptions(CommandLine& line, CLI::App& command, DeviceChoice& choice) {
@@ -65,6 +86,7 @@ std::string deviceTable(const std::vector<gpu::DeviceReport>& reports) {
     text += fmt::format("   compute  subgroups of {}, float64 {}, timestamps {}, kernels {} ({})\n", info.subgroupSize,
                         info.hasFloat64 ? "yes" : "no", info.timestampPeriodNs > 0 ? "yes" : "no",
                         nameOf(familyFor(info)), describe(familyFor(info)));
+    text += otherKernels(info);
   }
   return text;
 }
@@ -81,6 +103,7 @@ Json deviceJson(const gpu::DeviceReport& report) {
   json["usable"] = report.usable();
   json["refusals"] = report.refusals;
   json["kernels"] = report.usable() ? Json(nameOf(familyFor(info))) : Json(nullptr);
+  if (report.usable()) json["kernelRefusals"] = familiesJson(info);
   json["limits"] = {{"maxImageSize", info.maxImageSize},
                     {"maxStorageBufferBytes", info.maxStorageBufferBytes},
                     {"maxTexelBufferElements", info.maxTexelBufferElements},

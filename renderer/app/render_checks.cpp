@@ -12,6 +12,7 @@
 #include "app/picture_layers.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "gpu/box_search.h"
 #include "raster/strip.h"
 
 namespace crosslight {
@@ -113,6 +114,10 @@ constexpr std::uint64_t kTreeBytes = kNodeBytes + kMoreNodesBytes + sizeof(share
 // References on either side of a partition, and order; then order and each triangle's draw.
 constexpr std::uint64_t kBuildBytes = 2 * 32 + 4 + kNodeBytes, kJoinBytes = 2 * 4;
 
+// Where the device searches boxes itself: its structure over them, as llvmpipe has it (Mesa 25.0.7: 88 bytes); while it
+// is built, the boxes and what the driver works in. A driver may need more: then its allocation fails with figures.
+constexpr std::uint64_t kDeviceTreeBytes = 96, kDeviceBuildBytes = sizeof(gpu::SearchBox) + 40;
+
 SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved) {
   const SceneStats& stats = request.scene->stats;
   const std::uint64_t attributes = stats.vertices * sizeof(shared::VertexAttributes);
@@ -121,6 +126,12 @@ SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved
   std::uint64_t texels = 0;
   for (const TextureImage& image : request.scene->images) texels += image.rgba.size() * sizeof(float);
   if (!isTraced(request.settings.method)) return {flat, flat, flat + texels, flat + texels};
+  if (request.settings.kernel == KernelFamily::rayQuery) {
+    const std::uint64_t onHost = sizeof(shared::BvhPrimitive) + sizeof(gpu::SearchBox) + kJoinBytes;
+    const std::uint64_t onDevice = sizeof(shared::BvhPrimitive) + kDeviceTreeBytes + kDeviceBuildBytes;
+    return {flat, flat + stats.triangles * onHost, flat + texels + stats.triangles * onDevice,
+            std::max({attributes, texels, stats.triangles * sizeof(shared::BvhPrimitive)})};
+  }
   const std::uint64_t inTrees = stats.triangles - std::min(stats.triangles, trianglesSaved);
   const std::uint64_t kept =
       request.isFrame || !request.bvhCache.folder.empty() ? inTrees * (kNodeBytes + 4) : 0;  // or while it is written

@@ -25,7 +25,8 @@ struct EffectRecord {
 
 // The trees that rays walked; kind is empty for raster methods.
 struct TreeRecord {
-  std::string kind;    // "flat": one over all triangles; "two-level": one per mesh, and one over instances
+  std::string kind;    // "flat": one over all triangles; "two-level": one per mesh, and one over instances;
+                       // "device": none, the device searches boxes of triangles by its own
   std::string reason;  // why instances share trees, or do not
   std::uint64_t instances = 0, trees = 0, bytes = 0, bytesSaved = 0;
   // Of the trees; moved and unchanged: those of the frame before; loaded: from the disk.

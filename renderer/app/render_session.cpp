@@ -174,15 +174,17 @@ CachedTrees* RenderSession::Impl::cachedFor(const RenderRequest& request) {
 FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const Plan& plan, const FlatScene& flat,
                                       const Sharing& sharing, TreeRecord& record) {
   FlatBvh trees;
-  const TreeSources sources{keptFor(request, plan), cachedFor(request)};
+  const bool byDevice = kernels->choice().byDevice;
+  TreeSources sources;
+  if (!byDevice) sources = {keptFor(request, plan), cachedFor(request)};
   if (sharing.shares) {
     SharedTreesReport report;
     trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, sources);
     record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved, report.trees};
   } else {
     trees = buildFlatBvh(flat, *request.scene, request.settings,
-                         {kernels->choice().wideTree, kernels->choice().quadTree}, sources);
-    record = {"flat", sharing.reason, flat.instances.size(), 1, 0, 0, 1};
+                         {kernels->choice().wideTree, kernels->choice().quadTree, byDevice}, sources);
+    record = {byDevice ? "device" : "flat", sharing.reason, flat.instances.size(), 1, 0, 0, byDevice ? 0u : 1u};
   }
   if (sources.cached != nullptr) {
     record.loaded = sources.cached->takeLoaded();
@@ -221,6 +223,7 @@ void RenderSession::Impl::make(const RenderRequest& request, const Plan& plan, c
       kept.onDevice = GpuScene::forRays(device, scene, kept.settings, std::move(flat), std::move(bvh));
     else
       kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), nullptr);
+    kept.tree.bytes += kept.onDevice->deviceTreeBytes();
   } catch (...) {
     scenes.pop_front();
     throw;

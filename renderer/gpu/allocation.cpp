@@ -40,7 +40,7 @@ std::uint64_t largestHeap(const DeviceImpl& device) {
 }  // namespace
 
 Allocation allocate(DeviceImpl& device, const std::string& what, const vk::MemoryRequirements& needs,
-                    std::span<const MemoryWish> wishes) {
+                    std::span<const MemoryWish> wishes, bool hasAddress) {
   if (needs.size > device.maxAllocationBytes || needs.size > largestHeap(device)) {
     throw DeviceError(fmt::format("{} needs {} bytes of memory, the limit of {} is {} bytes", what, needs.size,
                                   device.info.name, std::min(device.maxAllocationBytes, largestHeap(device))));
@@ -49,7 +49,9 @@ Allocation allocate(DeviceImpl& device, const std::string& what, const vk::Memor
     for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type) {
       if (!fits(device, type, needs, wish)) continue;
       try {
-        vk::raii::DeviceMemory memory(device.device, vk::MemoryAllocateInfo(needs.size, type));
+        const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
+        const vk::MemoryAllocateInfo info(needs.size, type, hasAddress ? &addressed : nullptr);
+        vk::raii::DeviceMemory memory(device.device, info);
         return Allocation(device, std::move(memory), needs.size, type,
                           bool(wish.flags & vk::MemoryPropertyFlagBits::eHostVisible));
       } catch (const vk::OutOfDeviceMemoryError&) {

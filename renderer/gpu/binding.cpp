@@ -21,6 +21,8 @@ vk::DescriptorType descriptorType(BindingType type) {
       return vk::DescriptorType::eUniformBuffer;
     case BindingType::uniformWindow:
       return vk::DescriptorType::eUniformBufferDynamic;
+    case BindingType::boxSearch:
+      return vk::DescriptorType::eAccelerationStructureKHR;
     default:
       return vk::DescriptorType::eUniformTexelBuffer;
   }
@@ -29,6 +31,7 @@ vk::DescriptorType descriptorType(BindingType type) {
 bool isTexelBuffer(BindingType type) { return descriptorType(type) == vk::DescriptorType::eUniformTexelBuffer; }
 
 std::uint32_t useOf(BindingType type) {
+  if (type == BindingType::boxSearch) return 0;  // no buffer
   if (type == BindingType::storageBuffer) return useStorage;
   if (type == BindingType::uniformWindow) return useUniformWindows;
   return type == BindingType::uniformBuffer ? useUniform : useUniformTexel;
@@ -119,6 +122,20 @@ void BindingSet::setWindow(std::uint32_t slot, const Buffer& buffer, std::uint64
   CL_CHECK_LE(windowBytes, std::uint64_t{impl_->device->limits.maxUniformBufferRange});
   CL_CHECK_LE(windowBytes, buffer.sizeBytes());
   setPart(slot, buffer, windowBytes, true);
+}
+
+void BindingSet::set(std::uint32_t slot, const BoxSearch& search) {
+  const std::size_t position = positionOf(*impl_->layout, slot);
+  CL_CHECK(impl_->layout->bindings[position].type == BindingType::boxSearch);
+  const vk::WriteDescriptorSetAccelerationStructureKHR structure(*search.impl().top.structure);
+  const auto write = vk::WriteDescriptorSet()
+                         .setDstSet(impl_->set)
+                         .setDstBinding(slot)
+                         .setDescriptorCount(1)
+                         .setDescriptorType(vk::DescriptorType::eAccelerationStructureKHR)
+                         .setPNext(&structure);
+  impl_->device->device.updateDescriptorSets(write, {});
+  impl_->isSet[position] = true;
 }
 
 void BindingSet::setPart(std::uint32_t slot, const Buffer& buffer, std::uint64_t bytes, bool isWindow) {

@@ -37,8 +37,11 @@ void createDevice(DeviceImpl& device) {
   const float priority = 1.0f;
   const auto queue = vk::DeviceQueueCreateInfo().setQueueFamilyIndex(device.queueFamily).setQueuePriorities(priority);
   FeatureChain features = wantedFeatures(device.info);
-  const auto info =
-      vk::DeviceCreateInfo().setQueueCreateInfos(queue).setPNext(&features.get<vk::PhysicalDeviceFeatures2>());
+  const std::vector<const char*> extensions = wantedExtensions(device.info);
+  const auto info = vk::DeviceCreateInfo()
+                        .setQueueCreateInfos(queue)
+                        .setPEnabledExtensionNames(extensions)
+                        .setPNext(&features.get<vk::PhysicalDeviceFeatures2>());
   device.device = vk::raii::Device(device.physical, info);
   device.queue = vk::raii::Queue(device.device, device.queueFamily, 0);
   device.transferPool = vk::raii::CommandPool(

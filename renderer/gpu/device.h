@@ -31,6 +31,8 @@ struct DeviceInfo {
   // word; 0: no such limit. Vulkan has no such limit, llvmpipe has.
   std::uint32_t maxLoopPasses = 0;
   std::uint64_t deviceLocalBytes = 0;
+  // What the device lacks to search boxes itself (BoxSearch, ray queries in compute shaders); empty: it can.
+  std::string rayQueryLacks = "Vulkan 1.3";
   std::vector<std::uint32_t> msaaCounts;  // of RGBA32F color and D32F depth together, ascending, 1 included
 };
 

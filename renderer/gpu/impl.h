@@ -106,8 +106,9 @@ struct MemoryWish {
   vk::MemoryPropertyFlags flags;
   bool largeHeapOnly = false;
 };
+// `hasAddress`: shaders may ask for the address of what lies in it.
 Allocation allocate(DeviceImpl& device, const std::string& what, const vk::MemoryRequirements& needs,
-                    std::span<const MemoryWish> wishes);
+                    std::span<const MemoryWish> wishes, bool hasAddress = false);
 
 struct BufferImpl {
   DeviceImpl* device;
@@ -117,6 +118,16 @@ struct BufferImpl {
   std::uint32_t use;
   Allocation memory;
   vk::raii::Buffer buffer{nullptr};
+};
+
+// Boxes by the device's own structure, and what instances it: there is one instance, unmoved.
+struct BoxSearchImpl {
+  struct Level {
+    Buffer memory;
+    vk::raii::AccelerationStructureKHR structure{nullptr};
+  };
+  DeviceImpl* device;
+  Level boxes, top;
 };
 
 struct ImageImpl {

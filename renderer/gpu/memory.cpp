@@ -29,6 +29,9 @@ vk::BufferUsageFlags usageOf(std::uint32_t use) {
   if (use & useVertex) flags |= Usage::eVertexBuffer;
   if (use & useIndex) flags |= Usage::eIndexBuffer;
   if (use & useIndirect) flags |= Usage::eIndirectBuffer;
+  if (use & useBoxes) flags |= Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress;
+  if (use & useBoxSearch)
+    flags |= Usage::eAccelerationStructureStorageKHR | Usage::eStorageBuffer | Usage::eShaderDeviceAddress;
   return flags;
 }
 
@@ -74,7 +77,8 @@ Owned<BufferImpl> makeBuffer(DeviceImpl& device, std::string name, std::uint64_t
   return guarded("making " + what, [&] {
     const vk::BufferCreateInfo info({}, blocks * kGranularityBytes, usageOf(use), vk::SharingMode::eExclusive);
     vk::raii::Buffer buffer(device.device, info);
-    Allocation memory = allocate(device, what, buffer.getMemoryRequirements(), wishesOf(device, use));
+    const bool hasAddress = (use & (useBoxes | useBoxSearch)) != 0;
+    Allocation memory = allocate(device, what, buffer.getMemoryRequirements(), wishesOf(device, use), hasAddress);
     buffer.bindMemory(memory.handle(), 0);
     nameObject(device, buffer, name);
     return Owned<BufferImpl>(

@@ -23,6 +23,8 @@ enum BufferUse : std::uint32_t {
   useReadback = 64,         // host-visible and cached: read() is fast
   useHostWrite = 128,       // host-visible: write() needs no staging copy; for small, often changed data
   useUniformWindows = 256,  // of BindingType::uniformWindow: maxUniformBufferRange holds for each window, not for all
+  useBoxes = 512,           // BoxSearch is built from it
+  useBoxSearch = 1024,      // of the gpu room: what BoxSearch keeps, or works in
 };
 
 struct BufferImpl;

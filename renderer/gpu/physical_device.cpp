@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace crosslight::gpu {
 namespace {
@@ -23,8 +25,13 @@ namespace {
   X(shaderDemoteToHelperInvocation, "discards fragments")  \
   X(shaderTerminateInvocation, "discards fragments")
 
+// What ray queries need, besides the features below.
+constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                         VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
 // LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's src/gallium/auxiliary/gallivm/lp_bld_limits.h; a test of this room measures it.
-constexpr std::uint32_t kLlvmpipeLoopPasses = 65535;
+// Mesa 22.3 has the limit, 25.0 has it no more.
+constexpr std::uint32_t kLlvmpipeLoopPasses = 65535, kMesaWithoutLimit = 25;
 
 const char* typeName(vk::PhysicalDeviceType type) {
   switch (type) {
@@ -87,6 +94,22 @@ std::uint64_t deviceLocalBytes(const vk::raii::PhysicalDevice& physical) {
   return sum;
 }
 
+std::string rayQueryLacks(const vk::raii::PhysicalDevice& physical) {
+  const auto offered = physical.enumerateDeviceExtensionProperties();
+  for (const char* name : kRayQueryExtensions) {
+    const auto is = [&](const vk::ExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; };
+    if (std::none_of(offered.begin(), offered.end(), is)) return name;
+  }
+  const auto has =
+      physical
+          .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                        vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR>();
+  if (!has.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress) return "feature bufferDeviceAddress";
+  if (!has.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure)
+    return "feature accelerationStructure";
+  return has.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery ? "" : "feature rayQuery";
+}
+
 DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t index) {
   DeviceInfo info;
   const vk::PhysicalDeviceProperties basic = physical.getProperties();
@@ -108,9 +131,11 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
   const auto& driver = chain.get<vk::PhysicalDeviceVulkan12Properties>();
   info.driverName = driver.driverName.data();
   info.driverInfo = driver.driverInfo.data();
-  if (driver.driverID == vk::DriverId::eMesaLlvmpipe) info.maxLoopPasses = kLlvmpipeLoopPasses;
+  const bool limited = VK_API_VERSION_MAJOR(basic.driverVersion) < kMesaWithoutLimit;
+  if (driver.driverID == vk::DriverId::eMesaLlvmpipe && limited) info.maxLoopPasses = kLlvmpipeLoopPasses;
   info.subgroupSize = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
   info.hasFloat64 = physical.getFeatures().shaderFloat64 == VK_TRUE;
+  if (basic.apiVersion >= VK_API_VERSION_1_3) info.rayQueryLacks = rayQueryLacks(physical);
   return info;
 }
 
@@ -209,7 +234,20 @@ FeatureChain wantedFeatures(const DeviceInfo& info) {
   CL_VULKAN12_FEATURES(CL_WANT_12)
   CL_VULKAN13_FEATURES(CL_WANT_13)
   core.shaderFloat64 = info.hasFloat64 ? VK_TRUE : VK_FALSE;
+  if (info.rayQueryLacks.empty()) {
+    vulkan12.bufferDeviceAddress = VK_TRUE;
+    chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = VK_TRUE;
+    chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery = VK_TRUE;
+  } else {
+    chain.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
+    chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
+  }
   return chain;
+}
+
+std::vector<const char*> wantedExtensions(const DeviceInfo& info) {
+  if (!info.rayQueryLacks.empty()) return {};
+  return {kRayQueryExtensions.begin(), kRayQueryExtensions.end()};
 }
 
 }  // namespace crosslight::gpu

@@ -16,9 +16,13 @@ struct Candidate {
 
 std::vector<Candidate> candidatesOf(const vk::raii::Instance& instance);
 
-// Every feature that a usable device must have, for vkCreateDevice; with 64-bit floats when it has them.
-using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
-                                        vk::PhysicalDeviceVulkan13Features>;
+// Every feature that a usable device must have, for vkCreateDevice; with 64-bit floats and ray queries when it has
+// them.
+using FeatureChain =
+    vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                       vk::PhysicalDeviceVulkan13Features, vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                       vk::PhysicalDeviceRayQueryFeaturesKHR>;
 FeatureChain wantedFeatures(const DeviceInfo& info);
+std::vector<const char*> wantedExtensions(const DeviceInfo& info);
 
 }  // namespace crosslight::gpu

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu/box_search.h"
 #include "gpu/memory.h"
 
 namespace crosslight::gpu {
@@ -35,7 +36,8 @@ enum class BindingType {
   texelBufferFloat4,
   texelBufferUint4,
   texelBufferUint1,
-  uniformWindow
+  uniformWindow,
+  boxSearch
 };
 struct Binding {
   std::uint32_t slot;
@@ -64,6 +66,7 @@ class BindingSet {
   BindingSet(const Device& device, const BindingLayout& layout);
   void set(std::uint32_t slot, const Buffer& buffer);
   void setWindow(std::uint32_t slot, const Buffer& buffer, std::uint64_t windowBytes);  // a uniformWindow
+  void set(std::uint32_t slot, const BoxSearch& search);
   BindingSetImpl& impl() const { return *impl_; }
 
  private:

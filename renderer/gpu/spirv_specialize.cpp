@@ -79,7 +79,8 @@ class Specializer {
       if (decorates) specIds_[i.words[1]] = i.words[3];
       if (i.op() == SpirvOp::entryPoint) wanted_.push_back(i.words[2]);
       constexpr auto kFirstType = 19u, kLastType = 38u;
-      if (op >= kFirstType && op <= kLastType) isType_.at(i.words[1]) = true;
+      const bool ofRays = i.op() == SpirvOp::typeRayQuery || i.op() == SpirvOp::typeAccelerationStructure;
+      if ((op >= kFirstType && op <= kLastType) || ofRays) isType_.at(i.words[1]) = true;
       if (i.op() == SpirvOp::typeBool) truthTypes_.insert(i.words[1]);
       readConstant(i);
     }

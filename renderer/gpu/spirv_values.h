@@ -79,7 +79,9 @@ enum class SpirvOp : std::uint32_t {
   unreachable = 255,
   noLine = 317,
   moduleProcessed = 330,
-  decorateId = 332
+  decorateId = 332,
+  typeRayQuery = 4472,
+  typeAccelerationStructure = 5341
 };
 
 // Words of one instruction, the first with opcode and length.

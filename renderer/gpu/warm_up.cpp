@@ -30,12 +30,20 @@ struct WarmUpImpl {
       : device(&on.impl()),
         dummy(on, "warm-up", kDummyBytes, useStorage | useUniformTexel | useUniform),
         set(on, layout) {
-    for (const Binding& binding : layout.impl().bindings) set.set(binding.slot, dummy);
+    for (const Binding& binding : layout.impl().bindings) {
+      const bool searches = binding.type == BindingType::boxSearch;
+      if (searches && !nothing) nothing = BoxSearch(on, "warm-up", dummy, 0);
+      if (searches)
+        set.set(binding.slot, nothing);
+      else
+        set.set(binding.slot, dummy);
+    }
     pool = vk::raii::CommandPool(device->device, vk::CommandPoolCreateInfo({}, device->queueFamily));
   }
 
   DeviceImpl* device;
   Buffer dummy;
+  BoxSearch nothing;
   BindingSet set;
   std::mutex mutex;
   vk::raii::CommandPool pool{nullptr};

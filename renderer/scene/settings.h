@@ -8,13 +8,14 @@
 namespace crosslight {
 
 enum class Method { wireframe, flat, gouraud, phong, whitted };
-enum class FlatVertex { first, last, centroid };         // where flat shading evaluates lighting
-enum class PixelFilter { box, tent, gaussian };          // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
-enum class KernelFamily { automatic, perLane, packet };  // of the ray kernels: same hits, other speed
-enum class InstanceMode { automatic, flatten, share };   // trees of instances (rays): same hits
-enum class HitQueues { automatic, on, off };             // of hits by what their surfaces ask for: same image
-enum class FogDistance { ray, depth };                   // what fog goes by: the way of the light, or eye depth
-enum class TwoSided { material, always };                // per material (glTF's doubleSided), or everything
+enum class FlatVertex { first, last, centroid };  // where flat shading evaluates lighting
+enum class PixelFilter { box, tent, gaussian };   // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
+// Of the ray kernels: same hits, other speed.
+enum class KernelFamily { automatic, perLane, packet, rayQuery };
+enum class InstanceMode { automatic, flatten, share };  // trees of instances (rays): same hits
+enum class HitQueues { automatic, on, off };            // of hits by what their surfaces ask for: same image
+enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
+enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
 
 struct RenderSettings {
   Method method = Method::phong;

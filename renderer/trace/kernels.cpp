@@ -44,7 +44,9 @@ constexpr std::array kFamilies{
     Family{KernelFamily::perLane, "per-lane", "one ray per invocation through the binary tree"},
     Family{KernelFamily::packet, "packet",
            "camera rays in interval packets, shadow rays in packets, others one per invocation through quantised "
-           "nodes with four children"}};
+           "nodes with four children"},
+    Family{KernelFamily::rayQuery, "ray-query",
+           "one ray per invocation, boxes of triangles found by the device's own search (VK_KHR_ray_query)"}};
 
 const Family& rowOf(KernelFamily family) {
   return *std::find_if(kFamilies.begin(), kFamilies.end(), [&](const Family& f) { return f.family == family; });
@@ -80,18 +82,26 @@ bool branches(const Plan& plan) {
   return plan.has(Effect::reflection) || plan.has(Effect::refraction) || plan.has(Effect::transparency);
 }
 
+std::string whyNot(KernelFamily family, const gpu::DeviceInfo& device) {
+  if (family == KernelFamily::packet && !canRunPackets(device))
+    return fmt::format("needs subgroups of {} lanes, those of '{}' have {}", kPacketLanes, device.name,
+                       device.subgroupSize);
+  if (family == KernelFamily::rayQuery && !device.rayQueryLacks.empty())
+    return fmt::format("needs ray queries, and '{}' lacks {}", device.name, device.rayQueryLacks);
+  return {};
+}
+
 KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, const RenderSettings& settings,
                            bool sharedTrees) {
   KernelChoice choice;
   choice.instances = sharedTrees;
   choice.family = settings.kernel == KernelFamily::automatic ? familyFor(device) : settings.kernel;
-  const bool wantsPackets = choice.family == KernelFamily::packet;
-  const bool packets = wantsPackets && !sharedTrees;  // only rays that go one by one walk shared trees
-  if (wantsPackets && !canRunPackets(device)) {
-    throw DeviceError(
-        fmt::format("--kernel packet needs subgroups of {} lanes, those of '{}' have {}; --kernel auto takes {}",
-                    kPacketLanes, device.name, device.subgroupSize, nameOf(familyFor(device))));
+  if (const std::string reason = whyNot(choice.family, device); !reason.empty()) {
+    throw DeviceError(fmt::format("--kernel {} {}; --kernel auto takes {}", nameOf(choice.family), reason,
+                                  nameOf(familyFor(device))));
   }
+  // Only rays that go one by one walk shared trees.
+  const bool packets = choice.family == KernelFamily::packet && !sharedTrees;
   const bool triangles =
       plan.has(Effect::triangles) || !plan.has(Effect::shapes);  // something must say "nothing is hit"
   // A packet's code stands once per ray of a lane: where materials must be asked at every hit it is too long.
@@ -109,6 +119,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
     if (triangles && settings.maxDepth > 0) choice.secondary = packets ? "intersect_quad.comp" : "intersect.comp";
   }
   choice.quadTree = choice.secondary == "intersect_quad.comp";
+  choice.byDevice = choice.family == KernelFamily::rayQuery && triangles;
   return choice;
 }
 
@@ -146,12 +157,21 @@ bool driverKeepsCode() {
   return true;
 }
 
-gpu::BindingLayout layoutOn(const gpu::Device& device) {
-  return {device,
-          sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor,
-                         kBindAovs, kBindRest, kBindQueues},
-                        {kBindRayTexels, kBindHitTexels, kBindNodeTexels, kBindHitClasses}),
-          sizeof(TracePush)};
+gpu::BindingLayout layoutOn(const gpu::Device& device, const KernelChoice& choice) {
+  std::vector<gpu::Binding> bindings =
+      sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs,
+                     kBindRest, kBindQueues},
+                    {kBindRayTexels, kBindHitTexels, kBindNodeTexels, kBindHitClasses});
+  if (choice.byDevice) bindings.push_back({kBindTriangleBoxes, gpu::BindingType::boxSearch});
+  return {device, std::move(bindings), sizeof(TracePush)};
+}
+
+// Kernels that walk a tree over triangles exist twice: shaders/CMakeLists.txt makes the second with CL_RAY_QUERY.
+gpu::ShaderCode codeOf(const std::string& kernel, const KernelChoice& choice) {
+  const std::string queried = kernel.substr(0, kernel.rfind('.')) + "_query.comp";
+  const auto all = gpu::embeddedShaders();
+  const bool exists = std::any_of(all.begin(), all.end(), [&](const gpu::ShaderCode& c) { return c.name == queried; });
+  return gpu::embeddedShader(choice.byDevice && exists ? queried : kernel);
 }
 
 }  // namespace
@@ -163,7 +183,7 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
       choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
       variant_(variantOf(scene, plan, settings, choice_) | (sharedTrees ? kVariantInstances : 0u)),
       classes_(classifyHits(scene, plan, settings)),
-      layout_(layoutOn(device)),
+      layout_(layoutOn(device, choice_)),
       warmUp_(device, layout_) {
   const std::uint32_t queued = classes_.classes.empty() ? 0 : kVariantQueue;
   for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.gather}) begin({name});
@@ -195,7 +215,7 @@ void KernelPipelines::compileElsewhere(const KernelKey& key) const {
     gpu::DeviceOptions options;
     options.selector = std::to_string(device_.info().index);
     const gpu::Device other = gpu::Device::open(options);
-    const gpu::BindingLayout layout = layoutOn(other);
+    const gpu::BindingLayout layout = layoutOn(other, choice_);
     const gpu::ComputePipeline pipeline = makeOn(other, layout, key);
     gpu::WarmUp(other, layout).add(pipeline);
   } catch (const Error&) {
@@ -227,7 +247,7 @@ gpu::Constants KernelPipelines::constants() const { return constantsOf(plan_, va
 gpu::ComputePipeline KernelPipelines::makeOn(const gpu::Device& device, const gpu::BindingLayout& layout,
                                              const KernelKey& key) const {
   const Plan& plan = key.hitClass ? classes_.classes[*key.hitClass].plan : plan_;
-  return {device, layout, gpu::embeddedShader(key.kernel), constantsOf(plan, variant_ | key.variant)};
+  return {device, layout, codeOf(key.kernel, choice_), constantsOf(plan, variant_ | key.variant)};
 }
 
 const gpu::ComputePipeline& KernelPipelines::get(const KernelKey& key) {

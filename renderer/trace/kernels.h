@@ -17,8 +17,11 @@
 namespace crosslight {
 
 // Kernels for this device: what `devices` shows and `--kernel auto` takes. Packets need subgroups of 8 lanes, and pay
-// where a driver runs both sides of every branch.
+// where a driver runs both sides of every branch. Ray queries are taken nowhere until they have been measured faster on
+// that kind of device: on llvmpipe they are slower (README), on hardware nobody has measured.
 KernelFamily familyFor(const gpu::DeviceInfo& device);
+// Why a device cannot run a family; empty: it can.
+std::string whyNot(KernelFamily family, const gpu::DeviceInfo& device);
 // UsageError for a name that is none.
 KernelFamily kernelFamilyOf(const std::string& name);
 std::vector<std::string> kernelFamilyNames();
@@ -37,6 +40,7 @@ struct KernelChoice {
   bool wideTree = false;   // a tree with eight children per node is walked
   bool quadTree = false;   // one with four
   bool instances = false;  // trees that instances share are walked
+  bool byDevice = false;   // no tree over triangles is walked: the device searches
   KernelFamily family = KernelFamily::perLane;
 
   bool operator==(const KernelChoice&) const = default;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <future>
+#include <numeric>
 
 #include "effects/material_traits.h"
+#include "upload/query_boxes.h"
 
 namespace crosslight {
 namespace {
@@ -87,8 +89,24 @@ void appendShapes(const FlatScene& flat, const Scene& scene, const RenderSetting
   }
 }
 
+namespace {
+
+// Primitives in the order of the flattened triangles: a box's number is its triangle's.
+FlatBvh boxesForDevice(const FlatScene& flat, const Scene& scene, const RenderSettings& settings) {
+  FlatBvh result;
+  std::vector<std::uint32_t> order(flat.triangleCount());
+  std::iota(order.begin(), order.end(), 0u);
+  fillPrimitives(flat, scene, settings, order, result.primitives);
+  result.deviceBoxes = queryBoxes(flat);
+  appendShapes(flat, scene, settings, result);
+  return result;
+}
+
+}  // namespace
+
 FlatBvh buildFlatBvh(const FlatScene& flat, const Scene& scene, const RenderSettings& settings, MoreTrees more,
                      const TreeSources& sources) {
+  if (more.byDevice) return boxesForDevice(flat, scene, settings);
   FlatBvh result;
   const bool mine = sources.kept == nullptr && sources.cached == nullptr;
   Bvh own;

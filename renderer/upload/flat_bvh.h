@@ -1,11 +1,13 @@
 // The trees over a flattened scene as the shaders read them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "accel/cached_trees.h"
 #include "accel/kept_trees.h"
 #include "accel/wide_bvh.h"
+#include "gpu/box_search.h"
 #include "upload/flatten.h"
 
 namespace crosslight {
@@ -22,8 +24,9 @@ struct FlatBvh {
   std::uint32_t quadWaiting = 0;
   std::vector<shared::InstanceRecord> instances;  // empty: one tree over all triangles
   std::vector<shared::InstanceTriangle> instanceTriangles;
+  std::optional<std::vector<gpu::SearchBox>> deviceBoxes;  // instead of trees over triangles: one per primitive
 
-  std::uint64_t sizeBytes() const;
+  std::uint64_t sizeBytes() const;  // but for deviceBoxes, which go when the device has its structure
 };
 // Appends trees behind those before them; their references move along. `firstPrimitive` is added to what leaves name.
 void appendNodes(const std::vector<shared::BvhNode>& tree, std::uint32_t firstPrimitive,
@@ -36,10 +39,11 @@ std::uint32_t primitiveFlags(const FlatScene& flat, const Scene& scene, const Re
 // Key among kept trees of that in render space; those of meshes have their numbers.
 inline constexpr int kRenderSpaceTree = -1;
 
-// Trees beside the binary one that kernels walk.
+// Trees beside the binary one over the triangles that kernels walk.
 struct MoreTrees {
   bool wide = true;
   bool quad = true;
+  bool byDevice = false;  // none of them: the device searches boxes by a structure of its own (query_boxes.h)
 };
 // Where trees come from besides being built: the frame before, else the disk. Either may be null.
 struct TreeSources {

@@ -68,6 +68,11 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   quadNodes_ = moved("quantised BVH nodes", tree.quadNodes, gpu::useUniformTexel);
   instances_ = moved("instances", tree.instances, gpu::useUniformTexel);
   instanceTriangles_ = moved("triangles of shared trees", tree.instanceTriangles, gpu::useUniformTexel);
+  if (tree.deviceBoxes) {
+    const auto count = static_cast<std::uint32_t>(tree.deviceBoxes->size());
+    const gpu::Buffer boxes = moved("boxes of triangles", *tree.deviceBoxes, gpu::useBoxes);
+    triangleBoxes_ = gpu::BoxSearch(device, "search of triangles", boxes, count);
+  }
 }
 
 void GpuScene::setSample(const glm::vec2& sampleOffset) {
@@ -100,6 +105,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindDrawTexels, draws_);
   set.set(kBindShapeTexels, shapes_);
   set.set(kBindShapeBoxes, shapeBoxes_);
+  if (triangleBoxes_) set.set(kBindTriangleBoxes, triangleBoxes_);
 }
 
 std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots,

@@ -29,6 +29,7 @@ class GpuScene {
   std::uint32_t lightCount() const { return static_cast<std::uint32_t>(scene_.lights.size()); }
   const Scene& scene() const { return scene_; }
   std::uint32_t wideDepth() const { return wideDepth_; }  // of the wide tree; 0: there is none
+  std::uint64_t deviceTreeBytes() const { return triangleBoxes_ ? triangleBoxes_.sizeBytes() : 0; }
   bool hasQuads() const { return quadWaiting_ <= shared::kBvhStackSize && quadNodes_.sizeBytes() > 0; }
 
   const gpu::Buffer& materials() const { return materials_; }
@@ -47,6 +48,7 @@ class GpuScene {
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,
       nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
+  gpu::BoxSearch triangleBoxes_;  // empty: kernels walk trees
 };
 
 // The slots that GpuScene binds, for layouts, and buffers of the technique's own: storage, or texels of 4 words.

@@ -191,12 +191,18 @@ float lightPassedFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear) 
 }
 
 #include "accel/instances.glsl"
+#ifdef CL_RAY_QUERY
+#include "accel/ray_query.glsl"
+#endif
 
 // Triangles and shapes have a tree each: devices that run both sides of every branch would else pay for all shapes'
 // equations at every triangle.
 HitRecord closestTriangle(Ray ray, bool cutBackFaces) {
   Closest best = Closest(kMiss, kNoId);
   if (!isValid(ray)) return kMiss;
+#ifdef CL_RAY_QUERY
+  return closestByQuery(ray, cutBackFaces);
+#endif
   if (kInstances) return closestOfInstances(ray, cutBackFaces);
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);
@@ -216,6 +222,9 @@ float lightPassedTriangle(uint slot, Ray ray, RayShear shear) {
 // Share of light that travels the whole ray: the product over all surfaces in between. Transparent shadows have no
 // color and no refraction: what passes goes straight on.
 float lightPassedTriangles(Ray ray) {
+#ifdef CL_RAY_QUERY
+  return lightPassedByQuery(ray);
+#endif
   float passed = 1.0;
   WalkRay w = walkRayOf(ray);
   RayShear shear = shearOf(ray.direction);

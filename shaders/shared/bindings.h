@@ -59,7 +59,8 @@ CL_CONST uint kBindQueues = 30;  // hits of the level by class: arguments of ind
 CL_CONST uint kBindHitClasses = 31;         // texel buffer, RGBA32UI, one per material: class as a mesh's, as a shape's
 CL_CONST uint kBindInstances = 32;          // texel buffer, RGBA32UI, 5 per InstanceRecord
 CL_CONST uint kBindInstanceTriangles = 33;  // texel buffer, RGBA32UI, 2 per InstanceTriangle
-CL_CONST uint kBindShapeBoxes = 34;  // texel buffer, RGBA32UI, 2 per bounded shape, in fours: lower and upper corner
+CL_CONST uint kBindShapeBoxes = 34;     // texel buffer, RGBA32UI, 2 per bounded shape, in fours: lower and upper corner
+CL_CONST uint kBindTriangleBoxes = 35;  // acceleration structure, a box per triangle: of family ray-query
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 

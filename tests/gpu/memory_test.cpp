@@ -99,5 +99,20 @@ TEST_F(GpuTest, ImagesBeyondTheLimitsAreRefusedWithTheFigures) {
   EXPECT_THROW(Image(device(), "flat", ImageFormat::rgba32f, 0, 4), InternalError);
 }
 
+TEST_F(GpuTest, BoxesAreSearchedWhereTheDeviceCan) {
+  const std::vector<SearchBox> boxes{{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}};
+  const auto make = [&](std::uint32_t count) {
+    const bool can = device().info().rayQueryLacks.empty();
+    const Buffer buffer = Buffer::of(device(), "boxes", boxes, can ? useBoxes : useStorage);
+    return BoxSearch(device(), "two boxes", buffer, count);
+  };
+  if (!device().info().rayQueryLacks.empty()) {
+    EXPECT_THROW(make(2), DeviceError);
+    GTEST_SKIP() << "the device lacks " << device().info().rayQueryLacks;
+  }
+  EXPECT_GE(make(2).sizeBytes(), 2 * sizeof(SearchBox));
+  EXPECT_TRUE(make(0)) << "a search of nothing can be bound";
+}
+
 }  // namespace
 }  // namespace crosslight::gpu

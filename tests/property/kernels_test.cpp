@@ -1,7 +1,10 @@
-// Packets or one ray per lane: the same image, bit for bit, and the same counts of rays.
+// Packets, one ray per lane or the device's own search: the same image, bit for bit, and the same counts of rays.
 #include "trace/kernels.h"
+#include "base/error.h"
+#include "effects/effects.h"
 #include "scene/shape_mesh.h"
 #include "support/render_fixture.h"
+#include "upload/shared_trees.h"
 
 namespace crosslight::testing {
 namespace {
@@ -43,6 +46,47 @@ TEST_P(Kernels, makeTheSameImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllScenes, Kernels, ::testing::ValuesIn(allSceneNames()), [](const auto& i) {
+  std::string name = i.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+class RayQueries : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const std::string reason = whyNot(KernelFamily::rayQuery, device().info());
+    if (!reason.empty()) GTEST_SKIP() << "the family ray-query " << reason;
+  }
+};
+
+// Of several transparent surfaces in a light's way the device chooses the order, and each factor rounds once: of n
+// there are at most n roundings of 2^-24. Whatever lies behind mirrors adds up such pictures.
+constexpr double kOrderOfFactors = 64 * 0x1p-24;
+
+void expectSamePicture(const RenderResult& a, const RenderResult& b, double tolerance) {
+  const Difference d = largestDifference(a.image, b.image, [](std::uint32_t, std::uint32_t) { return true; });
+  EXPECT_TRUE(d.maximum <= tolerance * std::max({1.0, std::abs(double{d.a}), std::abs(double{d.b})})) << d;
+  EXPECT_TRUE(tolerance > 0 || a.image.picture().samples == b.image.picture().samples) << d;
+  EXPECT_EQ(a.report.rays, b.report.rays);
+}
+
+TEST_P(RayQueries, makeTheSameImage) {
+  const Scene scene = sceneNamed(GetParam());
+  RenderSettings settings = settingsFor(Method::whitted, 61, 43);
+  settings.spp = 2;
+  settings.aovs = {"depth", "primitiveId", "instanceId"};
+  settings.kernel = KernelFamily::perLane;
+  const RenderResult walked = render(device(), scene, settings);
+  settings.kernel = KernelFamily::rayQuery;
+  const RenderResult queried = render(device(), scene, settings);
+  expectSamePicture(walked, queried, showsItsTree(makePlan(scene, settings)) ? kOrderOfFactors : 0.0);
+  for (const char* ids : {"primitiveId", "instanceId"})
+    EXPECT_EQ(walked.image.find(ids)->integers, queried.image.find(ids)->integers) << ids;
+  EXPECT_TRUE(walked.image.find("depth")->samples == queried.image.find("depth")->samples);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, RayQueries, ::testing::ValuesIn(allSceneNames()), [](const auto& i) {
   std::string name = i.param;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
@@ -107,6 +151,11 @@ TEST(Families, packetsAreRefusedWhereSubgroupsAreNotOfEight) {
   RenderSettings settings;
   settings.kernel = KernelFamily::packet;
   EXPECT_THROW(chooseKernels(wide, Plan{}, settings), std::exception);
+  settings.kernel = KernelFamily::rayQuery;
+  EXPECT_THROW(chooseKernels(wide, Plan{}, settings), DeviceError);
+  wide.rayQueryLacks.clear();
+  EXPECT_EQ(familyFor(wide), KernelFamily::perLane);  // not before it is measured
+  EXPECT_NO_THROW(chooseKernels(wide, Plan{}, settings));
   settings.kernel = KernelFamily::automatic;
   EXPECT_EQ(chooseKernels(wide, Plan{}, settings).camera, "camera.comp");
 }
