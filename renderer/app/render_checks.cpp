@@ -125,8 +125,11 @@ SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved
       attributes + stats.vertices * sizeof(glm::vec3) + stats.triangles * 3 * sizeof(std::uint32_t);
   std::uint64_t texels = 0;
   for (const TextureImage& image : request.scene->images) texels += image.rgba.size() * sizeof(float);
-  if (!isTraced(request.settings.method)) return {flat, flat, flat + texels, flat + texels};
-  if (request.settings.kernel == KernelFamily::rayQuery) {
+  const bool raster = !isTraced(request.settings.method);
+  if (raster && request.settings.rasterShadows != RasterShadows::rays) {
+    return {flat, flat, flat + texels, flat + texels};
+  }
+  if (!raster && request.settings.kernel == KernelFamily::rayQuery) {
     const std::uint64_t onHost = sizeof(shared::BvhPrimitive) + sizeof(gpu::SearchBox) + kJoinBytes;
     const std::uint64_t onDevice = sizeof(shared::BvhPrimitive) + kDeviceTreeBytes + kDeviceBuildBytes;
     return {flat, flat + stats.triangles * onHost, flat + texels + stats.triangles * onDevice,

@@ -88,6 +88,9 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.spp = s.msaa = 1;
   s.maxDepth = 0;
   s.shadows = s.reflection = s.refraction = true;
+  if (s.rasterShadows != RasterShadows::rays) s.rasterShadows = RasterShadows::off;  // rays need a tree
+  s.shadowMaps = {};
+  s.rasterReflection = RasterReflection::off;
   s.filter = PixelFilter::box;
   s.seed = 0;
   s.allowNonfinite = false;
@@ -174,7 +177,9 @@ CachedTrees* RenderSession::Impl::cachedFor(const RenderRequest& request) {
 FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const Plan& plan, const FlatScene& flat,
                                       const Sharing& sharing, TreeRecord& record) {
   FlatBvh trees;
-  const bool byDevice = kernels->choice().byDevice;
+  // Raster's shaders walk the binary tree alone.
+  const KernelChoice choice = isTraced(request.settings.method) ? kernels->choice() : KernelChoice{};
+  const bool byDevice = choice.byDevice;
   TreeSources sources;
   if (!byDevice) sources = {keptFor(request, plan), cachedFor(request)};
   if (sharing.shares) {
@@ -182,8 +187,7 @@ FlatBvh RenderSession::Impl::treesFor(const RenderRequest& request, const Plan& 
     trees = buildSharedTrees(flat, *request.scene, request.settings, sharing, report, sources);
     record = {"two-level", sharing.reason, report.instances, report.trees, 0, report.bytesSaved, report.trees};
   } else {
-    trees = buildFlatBvh(flat, *request.scene, request.settings,
-                         {kernels->choice().wideTree, kernels->choice().quadTree, byDevice}, sources);
+    trees = buildFlatBvh(flat, *request.scene, request.settings, {choice.wideTree, choice.quadTree, byDevice}, sources);
     record = {byDevice ? "device" : "flat", sharing.reason, flat.instances.size(), 1, 0, 0, byDevice ? 0u : 1u};
   }
   if (sources.cached != nullptr) {
@@ -209,7 +213,7 @@ void RenderSession::Impl::make(const RenderRequest& request, const Plan& plan, c
   phases.lap("flatten");
   FlatBvh bvh;
   TreeRecord tree;
-  if (traced) bvh = treesFor(request, plan, flat, sharing, tree);
+  if (traced || rasterSendsRays(plan, settings)) bvh = treesFor(request, plan, flat, sharing, tree);
   phases.lap("bvh");
   PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, tree, nullptr};
   placed.counters = {{"triangles", flat.triangleCount()},
@@ -222,7 +226,7 @@ void RenderSession::Impl::make(const RenderRequest& request, const Plan& plan, c
     if (traced)
       kept.onDevice = GpuScene::forRays(device, scene, kept.settings, std::move(flat), std::move(bvh));
     else
-      kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), nullptr);
+      kept.onDevice = std::make_unique<GpuScene>(device, scene, kept.settings, std::move(flat), &bvh);
     kept.tree.bytes += kept.onDevice->deviceTreeBytes();
   } catch (...) {
     scenes.pop_front();

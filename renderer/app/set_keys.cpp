@@ -29,6 +29,13 @@ const std::vector<SetKey>& setKeys() {
        "shade hits in queues, one per kind of surface, by kernels made for each; the image is the same",
        {Method::whitted},
        [](RenderSettings& s, std::size_t value) { s.hitQueues = static_cast<HitQueues>(value); }},
+      {"raster-shadows",
+       {"off", "rays"},
+       "shadows of the raster methods: none, or exact ones by rays; where a method evaluates lighting",
+       {Method::flat, Method::gouraud, Method::phong},
+       [](RenderSettings& s, std::size_t value) {
+         s.rasterShadows = value == 1 ? RasterShadows::rays : RasterShadows::off;
+       }},
       {"flat.vertex",
        {"first", "last", "centroid"},
        "where on a triangle flat shading is evaluated",

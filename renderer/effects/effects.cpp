@@ -168,13 +168,20 @@ class Analysis {
     addByMaterial(rule);
   }
 
-  void whatRaysDo() {
-    const bool lit = traced_ && settings_.shadows && !scene_.lights.empty();
+  void shadows() {
+    const bool wanted = traced_ ? settings_.shadows : settings_.rasterShadows != RasterShadows::off;
+    if (settings_.method == Method::wireframe) return add(Effect::shadows, "shadows", false, "edges are not lit");
+    if (!wanted) {
+      return add(Effect::shadows, "shadows", false,
+                 traced_ ? "switched off" : "raster shows no shadows; --set raster-shadows=rays traces them");
+    }
+    const bool lit = !scene_.lights.empty();
     add(Effect::shadows, "shadows", lit,
-        !traced_ ? "not simulated by raster methods"
-                 : (!settings_.shadows ? "switched off"
-                                       : (lit ? fmt::format("{} lights cast shadows", scene_.lights.size())
-                                              : "the scene has no light")));
+        lit ? fmt::format("{} lights cast shadows", scene_.lights.size()) : "the scene has no light");
+  }
+
+  void whatRaysDo() {
+    shadows();
     for (const MaterialRule& rule : rayRules()) addRayRule(rule);
   }
 
@@ -201,6 +208,12 @@ class Analysis {
 };
 
 }  // namespace
+
+bool rasterSendsRays(const Plan& plan, const RenderSettings& settings) {
+  const bool lightsByRaster =
+      settings.method == Method::flat || settings.method == Method::gouraud || settings.method == Method::phong;
+  return lightsByRaster && settings.rasterShadows == RasterShadows::rays && plan.has(Effect::shadows);
+}
 
 Plan makePlan(const Scene& scene, const RenderSettings& settings) { return Analysis(scene, settings).run(); }
 

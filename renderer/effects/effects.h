@@ -28,6 +28,9 @@ struct Plan {
   bool has(Effect effect) const { return (effects >> static_cast<std::uint32_t>(effect)) & 1u; }
 };
 
+// Whether a raster method asks for its shadows by rays: then the scene needs trees.
+bool rasterSendsRays(const Plan& plan, const RenderSettings& settings);
+
 Plan makePlan(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace crosslight

@@ -1,11 +1,14 @@
 #include "raster/raster.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/check.h"
+#include "base/log.h"
 #include "raster/draw_list.h"
 #include "raster/draw_uniforms.h"
 #include "raster/method_shaders.h"
+#include "raster/shadow_pass.h"
 #include "raster/strip.h"
 #include "raster/targets.h"
 
@@ -30,7 +33,8 @@ class Raster final : public Technique {
         buffers_(buffers),
         lists_(makeDrawLists(scene.flat(), scene.scene(), plan, settings)),
         uniforms_(device, scene),
-        layout_(device, bindings(buffers), sizeof(RasterPush)),
+        shadows_(scene, plan, settings),
+        layout_(device, bindings(), std::max(sizeof(RasterPush), sizeof(VertexShadowPush))),
         set_(device, layout_),
         commands_(device),
         stripRows_(rowsPerStrip(settings.width, settings.height, settings.msaa)),
@@ -39,7 +43,10 @@ class Raster final : public Technique {
     scene_.bind(set_);
     uniforms_.bind(set_);
     set_.set(kBindAovs, buffers.aovs);
+    set_.set(kBindCounters, buffers.counters);
     if (buffers.wantsCodes()) set_.set(kBindDisplayCodes, buffers.codeTable);
+    shadows_.make(device, layout_, constants(kVaryingAll));
+    shadows_.bind(set_);
     makePipelines(device);
     makeIndices(device);
   }
@@ -47,6 +54,7 @@ class Raster final : public Technique {
   void renderSample(const SampleRequest& request, Tally& tally) override {
     scene_.setSample(request.offset);
     commands_.begin();
+    shadows_.record(commands_, set_);
     for (const Strip& strip : stripsOf(request.band, stripRows_)) {
       if (request.color) drawColor(strip, request.band);
       if (request.aovs) drawAovs(strip, request.band);
@@ -54,21 +62,25 @@ class Raster final : public Technique {
     commands_.barrier();
     commands_.submitAndWait();
     tally.add(commands_.spans());
+    if (shadows_.walksTrees()) lookAtCounters();
   }
 
   std::string promise() const override {
     if (settings_.method == Method::wireframe) return "none: edges in the surface's own color, no lighting";
-    return "E | L[DS_glossy]E: direct light without shadows; no reflection, no refraction; transparency without "
-           "bending";
+    return "E | L[DS_glossy]E: direct light " + shadows_.promise() +
+           "; no reflection, no refraction; transparency without bending";
   }
 
-  std::map<std::string, std::uint64_t> counters() const override { return {{"draws", draws_}}; }
+  std::map<std::string, std::uint64_t> counters() const override {
+    return {{"draws", draws_}, {"traversalsCapped", capped_}};
+  }
 
  private:
-  static std::vector<gpu::Binding> bindings(const FilmBuffers& buffers) {
-    std::vector<gpu::Binding> all = sceneBindings({kBindAovs});
+  std::vector<gpu::Binding> bindings() const {
+    std::vector<gpu::Binding> all = sceneBindings({kBindAovs, kBindCounters});
     for (const gpu::Binding& binding : DrawUniforms::bindings()) all.push_back(binding);
-    if (buffers.wantsCodes()) all.push_back({kBindDisplayCodes, gpu::BindingType::texelBufferUint1});
+    for (const gpu::Binding& binding : shadows_.bindings()) all.push_back(binding);
+    if (buffers_.wantsCodes()) all.push_back({kBindDisplayCodes, gpu::BindingType::texelBufferUint1});
     return all;
   }
 
@@ -77,7 +89,17 @@ class Raster final : public Technique {
     const bool few = scene_.lightCount() <= kFewLights && !settings_.allEffects;
     all.push_back({kSpecVaryings, settings_.allEffects ? kVaryingAll : varyings});
     all.push_back({kSpecLightCount, few ? scene_.lightCount() : kManyLights});
+    for (const gpu::Constant& constant : shadows_.constants()) all.push_back(constant);
     return all;
+  }
+
+  // Walks that met the limit of steps, over all samples.
+  void lookAtCounters() {
+    std::array<std::uint32_t, kCounterCount> counters{};
+    buffers_.counters.read(0, std::as_writable_bytes(std::span(counters)));
+    if (counters[kCounterCapped] > 0 && capped_ == 0)
+      logWarning("some shadow rays met the limit of traversal steps; what lies beyond it casts no shadow");
+    capped_ = counters[kCounterCapped];
   }
 
   gpu::GraphicsState baseState(std::string_view vertex, std::string_view fragment, std::uint32_t varyings) const {
@@ -267,6 +289,7 @@ class Raster final : public Technique {
   FilmBuffers& buffers_;
   DrawLists lists_;
   DrawUniforms uniforms_;
+  ShadowPass shadows_;
   gpu::BindingLayout layout_;
   gpu::BindingSet set_;
   gpu::Commands commands_;
@@ -274,7 +297,7 @@ class Raster final : public Technique {
   RasterTargets targets_;
   gpu::GraphicsPipeline opaque_, blended_, background_, depthFill_, aovDepthPass_, aovPass_;
   gpu::Buffer rotatedIndices_;
-  std::uint64_t draws_ = 0;
+  std::uint64_t draws_ = 0, capped_ = 0;
 };
 
 }  // namespace

@@ -15,7 +15,20 @@ enum class KernelFamily { automatic, perLane, packet, rayQuery };
 enum class InstanceMode { automatic, flatten, share };  // trees of instances (rays): same hits
 enum class HitQueues { automatic, on, off };            // of hits by what their surfaces ask for: same image
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
+enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
+enum class RasterReflection { off, planar, probe };     // of flat, gouraud and phong: what mirrors show
 enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
+
+// Of RasterShadows::maps.
+struct ShadowMapSettings {
+  std::uint32_t size = 1024;     // texels a side: of a spot's map, of each face of a point light's cube, of a cascade
+  std::uint32_t cascades = 3;    // maps of a directional light
+  std::uint32_t filterSize = 3;  // texels a side that are averaged: 1, 3 or 5
+  bool soft = false;             // penumbras as wide as the lights' radius makes them
+  double lightRadius = 0.0;      // scene units, of lights without a size of their own; directional: radians
+
+  bool operator==(const ShadowMapSettings&) const = default;
+};
 
 struct RenderSettings {
   Method method = Method::phong;
@@ -33,6 +46,9 @@ struct RenderSettings {
   bool shadows = true;                               // whitted
   bool reflection = true;                            // whitted
   bool refraction = true;                            // whitted; off: transmitted light goes straight on
+  RasterShadows rasterShadows = RasterShadows::off;
+  ShadowMapSettings shadowMaps;
+  RasterReflection rasterReflection = RasterReflection::off;
   bool infiniteViewer = false;
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;

@@ -16,8 +16,6 @@ LightRecord drawnLight(uint index) {
   return fewLights[index];
 }
 
-float lightVisibility(uint lightIndex) { return 1.0; }
-
 // Mesa 22.3's lavapipe compiles a vertex shader anew after every change of the bindings, with the values of the uniforms
 // that its branches hang on (8 times the time of a picture of 1,500 draws). So the vertex stage takes from the storage
 // buffers what it decides by, and from the uniforms what it computes with.
@@ -45,4 +43,5 @@ LightRecord vertexLight(uint index) {
 #define CL_MATERIAL(id) drawMaterial
 #define CL_LIGHT(index) drawnLight(index)
 #endif
+#include "raster/shadow.glsl"
 #endif

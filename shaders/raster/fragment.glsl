@@ -2,6 +2,9 @@
 // pixel, as floats or as a display's codes (CL_CODES), or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
+#ifndef CL_SUMS_MODE
+#define CL_LIT_HERE
+#endif
 #include "raster/draw.glsl"
 #include "shade/shade.glsl"
 #include "shade/fog.glsl"
@@ -47,11 +50,13 @@ LightSums lighting(SurfacePoint s) {
   }
   return sums;
 #else
+  uint triangle = pushed.firstTriangle + uint(gl_PrimitiveID);
 #ifdef CL_CENTROID
-  TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
+  TriangleCorners c = cornersOf(triangle);
   s.position = (c.v0 + c.v1 + c.v2) / 3.0;
   s.n = s.ng;
 #endif
+  if (kShadows != kShadowsOff) receiver_ = receiverOn(triangle, s.position, (pushed.drawFlags & kDrawFlipsWinding) != 0u);
   return illuminate(s, viewDirection(s.position), 0u, drawnLightCount());
 #endif
 }

@@ -4,12 +4,22 @@
 #include "types.h"
 
 CL_SHARED_BEGIN
-CL_CONST uint kBindDrawMaterial = 30;  // uniform MaterialRecord: a window onto that of the draw
-CL_CONST uint kBindFewLights = 31;     // uniform LightRecord[kFewLights]
-CL_CONST uint kBindDisplayCodes = 40;  // uint texels: displayCodeTable() of the image room; pictures of codes only
+CL_CONST uint kBindDrawMaterial = 30;      // uniform MaterialRecord: a window onto that of the draw
+CL_CONST uint kBindFewLights = 31;         // uniform LightRecord[kFewLights]
+CL_CONST uint kBindDisplayCodes = 40;      // uint texels: displayCodeTable() of the image room; pictures of codes only
+CL_CONST uint kBindVertexVisibility = 65;  // float[vertices * lights]: of methods that light vertices
+CL_CONST uint kBindShadowTexels = 66;      // uint texels: bits of distances, see shadow_map.glsl
+CL_CONST uint kBindShadowViews = 67;       // ShadowView[]
+CL_CONST uint kBindShadowLights = 68;      // ShadowLight[], one per light
 
-CL_CONST uint kSpecVaryings = 30;    // bits kVarying*: what the vertex stage passes on and fragments read
-CL_CONST uint kSpecLightCount = 31;  // lights in kBindFewLights; kManyLights: read kBindLights instead
+CL_CONST uint kSpecVaryings = 30;       // bits kVarying*: what the vertex stage passes on and fragments read
+CL_CONST uint kSpecLightCount = 31;     // lights in kBindFewLights; kManyLights: read kBindLights instead
+CL_CONST uint kSpecRasterShadows = 55;  // kShadows*
+CL_CONST uint kSpecShadowFilter = 56;   // texels a side that a lookup averages; 0: as many as the penumbra is wide
+
+CL_CONST uint kShadowsOff = 0u;
+CL_CONST uint kShadowsByMaps = 1u;
+CL_CONST uint kShadowsByRays = 2u;
 
 // As many as fit into the 16 KiB that every device allows for a uniform block.
 CL_CONST uint kFewLights = 170;
@@ -33,6 +43,14 @@ struct RasterPush {
   uint materialId;
   uint drawFlags;     // kDraw*
   float displayGain;  // pictures of codes only
+};
+
+// vertex_shadow.comp: visibility of one light from each vertex.
+struct VertexShadowPush {
+  uint vertexCount;
+  uint light;
+  uint lightCount;
+  float reach;  // no coordinate of the scene is larger, render space
 };
 CL_SHARED_END
 #endif

@@ -1,6 +1,6 @@
 // Raster against rays on every scene of the project: the same objects in the same pixels, the same light on them.
+#include "cross/same_picture.h"
 #include "structs.h"
-#include "support/render_fixture.h"
 
 namespace crosslight::testing {
 namespace {
@@ -17,55 +17,6 @@ RenderSettings plainSettings(Method method) {
   s.aovs = {"instanceId", "primitiveId", "materialId",      "albedo", "depth",
             "position",   "normal",      "geometricNormal", "uv"};
   return s;
-}
-
-// Rays see shapes' meshes here, so that both worlds have the same geometry: analytic shapes have tests of their own.
-Scene asMeshes(Scene scene) {
-  for (MeshInstance& instance : scene.instances) instance.replacedByShape = false;
-  std::vector<ShapeInstance> kept;
-  for (const ShapeInstance& shape : scene.shapes) {
-    const bool hasMesh = std::any_of(scene.instances.begin(), scene.instances.end(),
-                                     [&](const MeshInstance& i) { return i.instanceId == shape.instanceId; });
-    if (!hasMesh) kept.push_back(shape);
-  }
-  scene.shapes = kept;
-  return scene;
-}
-
-// Where one pixel's color hangs on the last bit of a coordinate, in either world: at the edge between two triangles
-// that are not neighbours (a fold of one object) and at an edge within a texture.
-class Steady {
- public:
-  Steady(const Image& raster, const Image& rays)
-      : width_(raster.width),
-        triangleA_(raster.find("primitiveId")->integers),
-        triangleB_(rays.find("primitiveId")->integers),
-        albedo_(raster.find("albedo")->samples) {}
-
-  // Interior pixels only: the neighbours exist.
-  bool operator()(std::uint32_t x, std::uint32_t y) const {
-    const std::size_t at = std::size_t{y} * width_ + x;
-    if (triangleA_[at] != triangleB_[at]) return false;
-    for (const std::size_t neighbour : {at - 1, at + 1, at - width_, at + width_}) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (std::abs(albedo_[3 * at + c] - albedo_[3 * neighbour + c]) > kTextureEdge) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  static constexpr float kTextureEdge =
-      0.05f;  // a step of albedo that no smooth texture of the scenes takes in a pixel
-  std::uint32_t width_;
-  const std::vector<std::uint32_t>&triangleA_, &triangleB_;
-  const std::vector<float>& albedo_;
-};
-
-// Colored transmission: rays weigh each channel, the rasteriser's blending knows one opacity.
-bool isTinted(const Material& m) {
-  const glm::vec4& base = m.baseColorFactor;
-  return m.transmissionFactor > 0 && !(base.r == base.g && base.g == base.b);
 }
 
 // Largest difference of one AOV over the pixels for which `counts` holds, relative to the AOV's largest value there.

@@ -1,4 +1,5 @@
 // Law 1: what a scene does not call for changes no bit; what it does call for changes the picture when it is left out.
+#include "app/render_session.h"
 #include "effects/effects.h"
 #include "support/render_fixture.h"
 
@@ -40,6 +41,50 @@ INSTANTIATE_TEST_SUITE_P(Features, Specialized, ::testing::ValuesIn(cases()), []
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
+
+// Shadows and reflections of the raster methods: the same law, and the codes of a shown picture are those of its
+// floats.
+struct RasterOption {
+  const char* name;
+  void (*set)(RenderSettings&);
+};
+constexpr RasterOption kRasterOptions[] = {
+    {"rays", [](RenderSettings& s) { s.rasterShadows = RasterShadows::rays; }},
+};
+
+class RasterOptions : public ::testing::TestWithParam<RasterOption> {};
+
+TEST_P(RasterOptions, specializedEqualsFullAndShownEqualsFloats) {
+  RenderSession session(device());
+  for (const char* name : {"showcase/three_lights", "feature/alpha_mask", "feature/transparency", "feature/mirror",
+                           "feature/spot_attenuation", "feature/texture"}) {
+    const Scene scene = sceneNamed(name);
+    for (const Method method : {Method::flat, Method::gouraud, Method::phong}) {
+      RenderSettings settings = settingsFor(method, 48, 36);
+      const Image plain = render(device(), scene, settings).image;
+      GetParam().set(settings);
+      const Image specialized = render(device(), scene, settings).image;
+      settings.allEffects = true;
+      const Image full = render(device(), scene, settings).image;
+      settings.allEffects = false;
+      const auto all = [](std::uint32_t, std::uint32_t) { return true; };
+      EXPECT_TRUE(specialized.picture().samples == full.picture().samples)
+          << name << " by " << nameOf(method) << ": " << largestDifference(specialized, full, all);
+      RenderRequest request{std::shared_ptr<const Scene>(std::shared_ptr<const Scene>(), &scene), settings};
+      request.shownBy = DisplayTransform{};
+      EXPECT_TRUE(displayPicture(session.render(request).image, {}).codes == displayPicture(specialized, {}).codes)
+          << name << " by " << nameOf(method);
+      const std::string changed = std::string(GetParam().name) == "rays" ? "showcase/three_lights" : "feature/mirror";
+      if (changed == name) {
+        EXPECT_FALSE(specialized.picture().samples == plain.picture().samples) << name << ": nothing is done";
+      }
+      session.forget(scene);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Options, RasterOptions, ::testing::ValuesIn(kRasterOptions),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 // The same seed gives the same bits, run after run.
 TEST(Determinism, secondRunGivesTheSameBits) {
