@@ -26,6 +26,11 @@ void checkAgainstDevice(const gpu::DeviceInfo& info, const RenderSettings& s) {
   if (isTraced(s.method) && s.msaa > 1) {
     throw UsageError("MSAA belongs to the raster methods: use --spp with whitted");
   }
+  if (s.shadesPerSample && s.msaa > 1 && !info.hasSampleShading)
+    throw DeviceError(
+        fmt::format("'{}' cannot light single coverage samples: leave out --set msaa.shading=sample, "
+                    "and use --spp",
+                    info.name));
   const auto& counts = info.msaaCounts;
   if (std::find(counts.begin(), counts.end(), s.msaa) != counts.end() || isTraced(s.method)) return;
   throw DeviceError(

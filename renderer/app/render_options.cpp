@@ -9,6 +9,7 @@
 #include "app/command_line.h"
 #include "app/frame_plan.h"
 #include "app/part.h"
+#include "app/picture_samples.h"
 #include "app/progress.h"
 #include "app/render_job.h"
 #include "app/set_keys.h"
@@ -25,7 +26,8 @@ constexpr std::uint32_t kMostDepth = 64;             // a ray tree doubles per l
 constexpr double kMostDegrees = 360000;              // a thousand turns
 constexpr double kMostStops = 64;                    // 2^64 takes any float radiance that matters to black or white
 
-const std::vector<std::string> kFilters = {"box", "tent", "gaussian"};
+const std::vector<std::string> kFilters = {"box", "tent", "gaussian", "mitchell"};
+const std::vector<std::string> kSamplers = {"sobol", "regular", "jittered"};
 const std::vector<std::string> kToneMaps = {"none", "clamp", "reinhard", "neutral"};
 const std::vector<std::string> kInstanceModes = {"auto", "flatten", "share"};
 const std::vector<std::string> kMsaaCounts = {"1", "2", "4", "8"};
@@ -81,6 +83,10 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
              "Samples per pixel, at the same places for raster and rays; 1 is the pixel's center")
       ->group("Sampling");
   line.choice(command, "--filter", o.filter, kFilters, "How samples are weighted into a pixel")->group("Sampling");
+  line.choice(
+          command, "--sampler", o.sampler, kSamplers,
+          "Where samples lie within a pixel: a low-discrepancy sequence, a grid, or anywhere in each cell of a grid")
+      ->group("Sampling");
   noteGiven(line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
                 ->group("Sampling"),
             o.msaaGiven);
@@ -184,6 +190,8 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.height = resolution.height;
   settings.spp = o.spp;
   settings.filter = static_cast<PixelFilter>(indexIn(kFilters, o.filter));
+  settings.sampler = static_cast<Sampler>(indexIn(kSamplers, o.sampler));
+  if (const std::string advice = adviceOnSamples(settings); !advice.empty()) logWarning(advice);
   settings.msaa = 1u << indexIn(kMsaaCounts, o.msaa);
   settings.maxDepth = o.maxDepth;
   settings.seed = o.seed;

@@ -28,6 +28,7 @@ struct RenderOptions {
   double turnDegrees = 0;
   std::uint32_t spp = 1;
   std::string filter = "box";
+  std::string sampler = "sobol";
   std::string msaa = "1";
   bool msaaGiven = false;
   std::uint32_t maxDepth = 5;

@@ -25,6 +25,7 @@ Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
           {"turnDegrees", o.turnDegrees},
           {"spp", s.spp},
           {"filter", o.filter},
+          {"sampler", o.sampler},
           {"msaa", s.msaa},
           {"maxDepth", s.maxDepth},
           {"set", o.set},

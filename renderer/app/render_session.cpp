@@ -6,6 +6,7 @@
 #include <list>
 
 #include "app/picture_layers.h"
+#include "app/picture_samples.h"
 #include "app/render_checks.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -19,26 +20,6 @@
 
 namespace crosslight {
 namespace {
-
-FilterShape shapeOf(PixelFilter filter) {
-  switch (filter) {
-    case PixelFilter::box:
-      return FilterShape::box;
-    case PixelFilter::tent:
-      return FilterShape::tent;
-    case PixelFilter::gaussian:
-      return FilterShape::gaussian;
-  }
-  return FilterShape::box;
-}
-
-std::string describeFilter(const RenderSettings& s) {
-  if (s.spp <= 1) return "one sample at the pixel's center";
-  const char* filter = s.filter == PixelFilter::box    ? "box of one pixel"
-                       : s.filter == PixelFilter::tent ? "tent of radius 1 pixel"
-                                                       : "Gaussian of deviation 1/2 pixel, cut at 3/2";
-  return fmt::format("{}, {} samples of a (0,2)-sequence, the same in every pixel", filter, s.spp);
-}
 
 void checkFinite(const FilmResult& film, const RenderSettings& s) {
   if (film.nonfinite == 0) return;
@@ -92,6 +73,7 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.shadowMaps = {};
   s.rasterReflection = RasterReflection::off;
   s.filter = PixelFilter::box;
+  s.sampler = Sampler::sobol;
   s.seed = 0;
   s.allowNonfinite = false;
   s.aovs.clear();
@@ -109,7 +91,7 @@ bool same(const std::vector<Band>& a, const std::vector<Band>& b) {
 }
 
 bool same(const FilmSettings& a, const FilmSettings& b) {
-  return a.width == b.width && a.height == b.height && a.offsets == b.offsets && a.wantAovs == b.wantAovs &&
+  return a.width == b.width && a.height == b.height && a.samples == b.samples && a.wantAovs == b.wantAovs &&
          same(a.rows, b.rows) && a.shownBy == b.shownBy;
 }
 
@@ -311,10 +293,9 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   PlacedScene& placed = impl_->place(request, plan, sharing, report, phases);
   report.counters = placed.counters;
   report.tree = placed.tree;
-  Film& film = impl_->filmFor(
-      {settings.width, settings.height, samplePattern(settings.spp, shapeOf(settings.filter), settings.seed),
-       !settings.aovs.empty(), request.rows, codesOf(request, plan)},
-      report);
+  Film& film = impl_->filmFor({settings.width, settings.height, samplesOf(settings), !settings.aovs.empty(),
+                               request.rows, codesOf(request, plan)},
+                              report);
   phases.lap("upload");
   const std::unique_ptr<Technique> technique = impl_->techniqueFor(plan, placed, film.buffers(), kernels);
   phases.lap("pipelines");
@@ -343,7 +324,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.deviceBytes = impl_->device.peakAllocatedBytes();
   report.neededBytes = need.hostPictureBytes + need.hostSceneBytes + need.devicePictureBytes + need.deviceSceneBytes;
   report.promise = technique->promise();
-  report.pixelFilter = describeFilter(settings);
+  report.pixelFilter = describeSamples(settings);
   return result;
 }
 

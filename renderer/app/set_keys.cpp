@@ -36,6 +36,11 @@ const std::vector<SetKey>& setKeys() {
        [](RenderSettings& s, std::size_t value) {
          s.rasterShadows = value == 1 ? RasterShadows::rays : RasterShadows::off;
        }},
+      {"msaa.shading",
+       {"pixel", "sample"},
+       "with --msaa: light each pixel's fragment once, or every coverage sample where it lies",
+       {Method::wireframe, Method::flat, Method::gouraud, Method::phong},
+       [](RenderSettings& s, std::size_t value) { s.shadesPerSample = value == 1; }},
       {"flat.vertex",
        {"first", "last", "centroid"},
        "where on a triangle flat shading is evaluated",

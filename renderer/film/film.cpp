@@ -82,7 +82,7 @@ std::uint64_t filmBytes(const gpu::DeviceInfo& device, const FilmSettings& setti
 Film::Film(const gpu::Device& device, const FilmSettings& settings)
     : settings_(settings),
       bandRows_(rowsPerBand(device.info(), settings)),
-      single_(settings.offsets.size() == 1),
+      single_(settings.samples.size() == 1),
       readsSample_(single_ && device.info().isSoftware),
       commands_(device),
       layout_(device, filmBindings(), sizeof(FilmPush)),
@@ -148,7 +148,7 @@ FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sin
   FilmResult result;
   resetCounters();
   const std::vector<Band> all = bands();
-  const std::uint64_t total = all.size() * settings_.offsets.size();
+  const std::uint64_t total = all.size() * settings_.samples.size();
   std::uint64_t done = 0;
   const auto step = [&] {
     ++done;
@@ -170,22 +170,21 @@ FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sin
 
 // Leaves the sums of the samples in the film, and the AOVs of the pixels' centers in their buffer.
 void Film::renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step) {
-  const bool centered = settings_.offsets.size() == 1 && settings_.offsets[0] == glm::vec2(0.5f);
-  bool first = true;
-  for (const glm::vec2& offset : settings_.offsets) {
+  const bool centered = settings_.samples.size() == 1 && settings_.samples[0] == PixelSample{};
+  for (std::uint32_t i = 0; i < settings_.samples.size(); ++i) {
+    const PixelSample& sample = settings_.samples[i];
     if (settings_.wantAovs) clearAovs(band);
-    technique.renderSample({band, settings_.width, offset, true, settings_.wantAovs}, tally);
+    technique.renderSample({band, settings_.width, sample.offset, i, true, settings_.wantAovs}, tally);
     if (single_) {
       fetchSample(band);
     } else {
-      accumulate(band, first, tally);
+      accumulate(band, i == 0, sample.weight, tally);
     }
-    first = false;
     step();
   }
   if (!settings_.wantAovs || centered) return;
   clearAovs(band);
-  technique.renderSample({band, settings_.width, glm::vec2(0.5f), false, true}, tally);
+  technique.renderSample({band, settings_.width, glm::vec2(0.5f), 0, false, true}, tally);
 }
 
 // "Nothing was hit": all zero but the ids.
@@ -199,11 +198,12 @@ void Film::clearAovs(const Band& band) {
   commands_.submitAndWait();
 }
 
-void Film::accumulate(const Band& band, bool first, Tally& tally) {
+void Film::accumulate(const Band& band, bool first, float weight, Tally& tally) {
   FilmPush push{};
   push.pixelCount = band.rowCount * settings_.width;
   push.firstPixel = band.firstRow * settings_.width;
   push.firstSample = first ? 1u : 0u;
+  push.weight = weight;
   commands_.begin();
   commands_.barrier();
   commands_.beginSpan("accumulate");

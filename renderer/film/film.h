@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "film/sample_pattern.h"
 #include "gpu/commands.h"
 #include "image/image_io.h"
 #include "structs.h"
@@ -47,6 +48,7 @@ struct SampleRequest {
   Band band;
   std::uint32_t width = 0;
   glm::vec2 offset{0.5f};
+  std::uint32_t index = 0;  // of the sample
   bool color = true;
   bool aovs = false;
 };
@@ -66,7 +68,7 @@ class Technique {
 
 struct FilmSettings {
   std::uint32_t width = 0, height = 0;
-  std::vector<glm::vec2> offsets;  // of the samples within the pixel
+  std::vector<PixelSample> samples;
   bool wantAovs = false;
   std::vector<Band> rows = {};  // those that are exposed, ascending; empty: all
   // Only the codes of this transform are wanted, which hasCodeTable(): one sample, no AOVs, and a technique that can.
@@ -106,7 +108,7 @@ class Film {
   void resetCounters();
   void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step);
   void clearAovs(const Band& band);
-  void accumulate(const Band& band, bool first, Tally& tally);
+  void accumulate(const Band& band, bool first, float weight, Tally& tally);
   void fetchSample(const Band& band);
   void readBand(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result);
   void readBandCodes(const Band& band, std::size_t firstPixel, const PixelSink& sink, FilmResult& result);
@@ -115,6 +117,7 @@ class Film {
   void readAovs(std::size_t first, std::span<shared::AovRecord> aovs);
   void readCounters(FilmResult& result);
   std::uint64_t sampleBytes() const;  // of one pixel of sampleColor
+  double sumOfWeights() const;
 
   FilmSettings settings_;
   std::uint32_t bandRows_ = 0;
@@ -132,10 +135,5 @@ class Film {
 
 // Device memory of a film, for estimates before there is one.
 std::uint64_t filmBytes(const gpu::DeviceInfo& device, const FilmSettings& settings);
-
-// Sub-pixel positions of `count` samples under a filter, the same for every pixel and every technique: for one sample
-// the pixel's center; else a (0,2)-sequence (Sobol 1967), moved by the seed, warped to the filter's density.
-enum class FilterShape { box, tent, gaussian };
-std::vector<glm::vec2> samplePattern(std::uint32_t count, FilterShape filter, std::uint64_t seed);
 
 }  // namespace crosslight

@@ -58,14 +58,20 @@ void Film::readBandCodes(const Band& band, std::size_t firstPixel, const PixelSi
   }
 }
 
+double Film::sumOfWeights() const {
+  double sum = 0;
+  for (const PixelSample& sample : settings_.samples) sum += sample.weight;
+  return sum;
+}
+
 void Film::readMean(std::size_t first, std::span<glm::vec4> picture) {
-  const auto samples = static_cast<double>(settings_.offsets.size());
+  const double weights = sumOfWeights();
   pixels_.resize(picture.size());
   buffers_.film.read(first * sizeof(FilmPixel), std::as_writable_bytes(std::span(pixels_)));
   for (std::size_t i = 0; i < picture.size(); ++i) {
     for (int c = 0; c < 4; ++c) {
       const double sum = static_cast<double>(pixels_[i].sum[c]) - static_cast<double>(pixels_[i].compensation[c]);
-      picture[i][c] = static_cast<float>(sum / samples);
+      picture[i][c] = static_cast<float>(sum / weights);
     }
   }
 }
@@ -75,7 +81,7 @@ void Film::readAovs(std::size_t first, std::span<AovRecord> aovs) {
   if (single_) return;  // its parts are their own means
   parts_.resize(aovs.size());
   buffers_.parts.read(first * sizeof(FilmParts), std::as_writable_bytes(std::span(parts_)));
-  const auto scale = static_cast<float>(1.0 / static_cast<double>(settings_.offsets.size()));
+  const auto scale = static_cast<float>(1.0 / sumOfWeights());
   for (std::size_t i = 0; i < aovs.size(); ++i) {
     aovs[i].albedo = parts_[i].albedo * scale;
     aovs[i].ambient = parts_[i].ambient * scale;

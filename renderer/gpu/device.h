@@ -21,7 +21,8 @@ struct DeviceInfo {
   bool isSoftware = false;
   std::uint32_t subgroupSize = 0;
   bool hasFloat64 = false;
-  float timestampPeriodNs = 0;  // 0: no timestamps
+  bool hasSampleShading = false;  // GraphicsState::shadePerSample
+  float timestampPeriodNs = 0;    // 0: no timestamps
   std::uint64_t maxStorageBufferBytes = 0;
   std::uint64_t maxTexelBufferElements = 0;
   std::uint32_t uniformWindowAlignment = 0;  // of the offsets of uniform windows, bytes

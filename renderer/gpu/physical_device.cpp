@@ -136,6 +136,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
   info.subgroupSize = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
   info.hasFloat64 = physical.getFeatures().shaderFloat64 == VK_TRUE;
   if (basic.apiVersion >= VK_API_VERSION_1_3) info.rayQueryLacks = rayQueryLacks(physical);
+  info.hasSampleShading = physical.getFeatures().sampleRateShading == VK_TRUE;
   return info;
 }
 
@@ -242,6 +243,7 @@ FeatureChain wantedFeatures(const DeviceInfo& info) {
     chain.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
     chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
   }
+  core.sampleRateShading = info.hasSampleShading ? VK_TRUE : VK_FALSE;
   return chain;
 }
 

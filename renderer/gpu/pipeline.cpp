@@ -109,7 +109,9 @@ FixedState::FixedState(const GraphicsState& state) {
       .setDepthBiasConstantFactor(state.depthBiasConstant)
       .setDepthBiasSlopeFactor(state.depthBiasSlope)
       .setLineWidth(1.0f);
-  multisample.setRasterizationSamples(sampleFlag(state.samples));
+  multisample.setRasterizationSamples(sampleFlag(state.samples))
+      .setSampleShadingEnable(state.shadePerSample)
+      .setMinSampleShading(1.0f);
   // Vulkan writes no depth where the test is off, so a write without a test is a test that always passes.
   depth.setDepthTestEnable(state.depthTarget && (state.depthTest != DepthTest::off || state.depthWrite))
       .setDepthWriteEnable(state.depthTarget && state.depthWrite)
@@ -203,10 +205,10 @@ std::string keyOf(const BindingLayoutImpl& layout, const GraphicsState& s) {
   for (const VertexAttribute& a : s.attributes) {
     key += fmt::format(" a{}:{}:{}:{}", a.location, a.buffer, a.offset, static_cast<int>(a.format));
   }
-  return key + fmt::format(" {:d}:{}{:d} {} {} {:d} {} {} {:a} {:a}", s.colorTarget, static_cast<int>(s.colorFormat),
-                           s.depthTarget, s.samples, static_cast<int>(s.depthTest), s.depthWrite,
-                           static_cast<int>(s.blend), static_cast<int>(s.polygonMode), s.depthBiasConstant,
-                           s.depthBiasSlope);
+  return key + fmt::format(" {:d}:{}{:d} {}{:d} {} {:d} {} {} {:a} {:a}", s.colorTarget,
+                           static_cast<int>(s.colorFormat), s.depthTarget, s.samples, s.shadePerSample,
+                           static_cast<int>(s.depthTest), s.depthWrite, static_cast<int>(s.blend),
+                           static_cast<int>(s.polygonMode), s.depthBiasConstant, s.depthBiasSlope);
 }
 
 }  // namespace

@@ -109,6 +109,7 @@ struct GraphicsState {
   ImageFormat colorFormat = ImageFormat::rgba32f;  // r32ui cannot blend
   bool depthTarget = true;                         // D32F
   std::uint32_t samples = 1;
+  bool shadePerSample = false;  // fragments run once per sample, where it lies, instead of once per pixel
   DepthTest depthTest = DepthTest::greater;
   bool depthWrite = true;
   Blend blend = Blend::off;

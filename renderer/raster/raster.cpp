@@ -117,6 +117,7 @@ class Raster final : public Technique {
                     {5, 1, offsetof(VertexAttributes, color), float4}};
     s.colorFormat = targets_.colorFormat;
     s.samples = settings_.msaa;
+    s.shadePerSample = settings_.shadesPerSample && settings_.msaa > 1;
     return s;
   }
 
@@ -175,11 +176,13 @@ class Raster final : public Technique {
     depth.vertex = gpu::embeddedShader(shaders.vertex);  // the same program as the pass that tests for equality
     depth.constants = constants(kVaryingAll, kVariantSeparateSums);
     depth.samples = 1;
+    depth.shadePerSample = false;
     aovDepthPass_ = gpu::GraphicsPipeline(device, layout_, depth);
     gpu::GraphicsState aov = baseState(shaders.vertex, shaders.aovFragment, kVaryingAll);
     aov.constants = constants(kVaryingAll, kVariantSeparateSums);
     aov.colorTarget = false;
     aov.samples = 1;
+    aov.shadePerSample = false;
     aov.depthTest = gpu::DepthTest::equal;
     aov.depthWrite = false;
     aovPass_ = gpu::GraphicsPipeline(device, layout_, aov);

@@ -8,8 +8,9 @@
 namespace crosslight {
 
 enum class Method { wireframe, flat, gouraud, phong, whitted };
-enum class FlatVertex { first, last, centroid };  // where flat shading evaluates lighting
-enum class PixelFilter { box, tent, gaussian };   // radius 0.5, 1 and 1.5 pixels (gaussian: sigma 0.5)
+enum class FlatVertex { first, last, centroid };           // where flat shading evaluates lighting
+enum class PixelFilter { box, tent, gaussian, mitchell };  // radius 0.5, 1, 1.5 (sigma 0.5) and 2 pixels
+enum class Sampler { sobol, regular, jittered };           // where samples lie within a pixel
 // Of the ray kernels: same hits, other speed.
 enum class KernelFamily { automatic, perLane, packet, rayQuery };
 enum class InstanceMode { automatic, flatten, share };  // trees of instances (rays): same hits
@@ -37,8 +38,10 @@ struct RenderSettings {
   int camera = 0;         // index into Scene::cameras
   std::uint32_t spp = 1;  // samples per pixel, the same sub-pixel positions in raster and rays; 1: the pixel's center
   PixelFilter filter = PixelFilter::box;
-  std::uint32_t msaa = 1;      // raster only: coverage samples 1, 2, 4, 8
-  std::uint32_t maxDepth = 5;  // whitted: ray segments after the primary one; 0 is direct light only
+  Sampler sampler = Sampler::sobol;
+  std::uint32_t msaa = 1;        // raster only: coverage samples 1, 2, 4, 8
+  bool shadesPerSample = false;  // raster with msaa: light every coverage sample, not the pixel once
+  std::uint32_t maxDepth = 5;    // whitted: ray segments after the primary one; 0 is direct light only
   std::uint64_t seed = 0;
   KernelFamily kernel = KernelFamily::automatic;     // rays only
   InstanceMode instances = InstanceMode::automatic;  // rays only

@@ -17,7 +17,8 @@ layout(set = 0, binding = kBindCounters, scalar) buffer CounterBlock { uint coun
 
 void addParts(uint pixel) {
   AovRecord aov = aovs[pixel];
-  FilmParts p = FilmParts(aov.albedo, aov.ambient, aov.diffuse, aov.specular, aov.emission);
+  float w = pushed.weight;
+  FilmParts p = FilmParts(w * aov.albedo, w * aov.ambient, w * aov.diffuse, w * aov.specular, w * aov.emission);
   if (pushed.firstSample == 0u) {
     FilmParts old = parts[pixel];
     p = FilmParts(old.albedo + p.albedo, old.ambient + p.ambient, old.diffuse + p.diffuse, old.specular + p.specular,
@@ -29,7 +30,7 @@ void addParts(uint pixel) {
 void main() {
   uint pixel = gl_GlobalInvocationID.x;
   if (pixel >= pushed.pixelCount) return;
-  vec4 value = samples[pixel];
+  vec4 value = pushed.weight * samples[pixel];
   if (any(isnan(value)) || any(isinf(value))) {
     atomicAdd(counters[kCounterNonfinite], 1u);
     atomicMax(counters[kCounterFirstNonfinite], 0xffffffffu - (pushed.firstPixel + pixel));

@@ -184,6 +184,7 @@ struct FilmPush {
   uint pixelCount;
   uint firstPixel;
   uint firstSample;  // 1: start the sums, do not add to them
+  float weight;      // of the sample
 };
 CL_SHARED_END
 

@@ -64,10 +64,11 @@ TEST(DrawLists, joinNeighboursOfOneStateAndKeepTheOrder) {
   EXPECT_TRUE(lists.blended.empty());
 }
 
-std::vector<glm::vec4> pictureOf(const Scene& scene, const RenderSettings& settings, const std::vector<Band>& rows) {
+std::vector<glm::vec4> pictureOf(const Scene& scene, const RenderSettings& settings, const std::vector<Band>& rows,
+                                 const std::vector<PixelSample>& samples = {PixelSample{}}) {
   const Plan plan = makePlan(scene, settings);
   GpuScene gpuScene(device(), scene, settings, flattenScene(scene, renderOrigin(scene.cameras[0]), false), nullptr);
-  FilmSettings filmSettings{settings.width, settings.height, samplePattern(1, FilterShape::box, 0), false};
+  FilmSettings filmSettings{settings.width, settings.height, samples, false};
   filmSettings.rows = rows;
   Film film(device(), filmSettings);
   const std::unique_ptr<Technique> technique = makeRaster(device(), gpuScene, plan, settings, film.buffers());
@@ -77,6 +78,30 @@ std::vector<glm::vec4> pictureOf(const Scene& scene, const RenderSettings& setti
     std::copy(some.picture.begin(), some.picture.end(), pixels.begin() + static_cast<std::ptrdiff_t>(some.first));
   });
   return pixels;
+}
+
+// Vulkan's standard positions of four samples (26.3, "Multisampling"): where each is lit by itself a pixel is the mean
+// of four pictures that are lit there. Interpolation at a moved sample and in a moved picture round differently: 1e-5
+// of values up to 1 is a hundred roundings; lit once per pixel, textures differ by hundredths.
+TEST(SampleShading, lightsEverySampleWhereItLies) {
+  const std::vector<std::uint32_t>& counts = device().info().msaaCounts;
+  if (std::find(counts.begin(), counts.end(), 4u) == counts.end()) GTEST_SKIP() << "no MSAA 4";
+  if (!device().info().hasSampleShading) GTEST_SKIP() << "no sample shading";
+  const Scene scene = sceneNamed("feature/texture");
+  RenderSettings settings = settingsFor(Method::phong, 64, 48);
+  const std::vector<glm::vec4> four =
+      pictureOf(scene, settings, {}, {{{0.375f, 0.125f}}, {{0.875f, 0.375f}}, {{0.125f, 0.625f}}, {{0.625f, 0.875f}}});
+  settings.msaa = 4;
+  const auto largestTo = [&](const std::vector<glm::vec4>& picture) {
+    float largest = 0;
+    for (std::size_t i = 0; i < four.size(); ++i) {
+      for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(four[i][c] - picture[i][c]));
+    }
+    return largest;
+  };
+  EXPECT_GT(largestTo(pictureOf(scene, settings, {})), 1e-2f) << "the texture does not tell the two apart";
+  settings.shadesPerSample = true;
+  EXPECT_LE(largestTo(pictureOf(scene, settings, {})), 1e-5f);
 }
 
 // Rows of the picture drawn by themselves, in two pieces: through a target that is copied, not the film's own memory.

@@ -89,7 +89,7 @@ Exposed expose(const FilmSettings& settings) {
 }
 
 TEST(Film, isTheMeanOfItsSamples) {
-  const Exposed exposed = expose({kWidth, kHeight, {{0.25f, 0.5f}, {0.75f, 0.5f}}, false, {}});
+  const Exposed exposed = expose({kWidth, kHeight, {{{0.25f, 0.5f}}, {{0.75f, 0.5f}}}, false, {}});
   ASSERT_EQ(exposed.picture.size(), kWidth * kHeight);
   for (std::uint32_t p = 0; p < kWidth * kHeight; ++p) {
     const glm::dvec4 sum = glm::dvec4(colorAt(p, 0)) + glm::dvec4(colorAt(p, 1));
@@ -98,7 +98,7 @@ TEST(Film, isTheMeanOfItsSamples) {
 }
 
 TEST(Film, ofSomeRowsHasTheBitsOfTheWhole) {
-  FilmSettings settings{kWidth, kHeight, {{0.5f, 0.5f}}, true, {}};
+  FilmSettings settings{kWidth, kHeight, {{{0.5f, 0.5f}}}, true, {}};
   const Exposed whole = expose(settings);
   settings.rows = {{3, 5}, {8, 1}, {40, 13}};
   Film film(device(), settings);
@@ -127,7 +127,7 @@ TEST(Film, ofSomeRowsHasTheBitsOfTheWhole) {
 }
 
 TEST(Film, ofCodesHandsThemOnAndCountsWhatIsNotFinite) {
-  FilmSettings settings{kWidth, kHeight, {{0.5f, 0.5f}}, false, {}};
+  FilmSettings settings{kWidth, kHeight, {{{0.5f, 0.5f}}}, false, {}};
   settings.shownBy = DisplayTransform{.exposureStops = 1};
   Film film(device(), settings);
   EXPECT_TRUE(film.buffers().wantsCodes());
@@ -156,7 +156,7 @@ TEST(Film, ofCodesHandsThemOnAndCountsWhatIsNotFinite) {
 }
 
 TEST(Film, tellsNothingHitFromHit) {
-  const Exposed exposed = expose({kWidth, kHeight, {{0.5f, 0.5f}}, true, {}});
+  const Exposed exposed = expose({kWidth, kHeight, {{{0.5f, 0.5f}}}, true, {}});
   for (std::uint32_t p = 0; p < kWidth * kHeight; ++p) {
     ASSERT_EQ(exposed.aovs[p].instanceId, p % 2 == 0 ? p : shared::kNoId);
     ASSERT_EQ(exposed.aovs[p].depth, p % 2 == 0 ? static_cast<float>(p) : 0.0f);
@@ -165,12 +165,12 @@ TEST(Film, tellsNothingHitFromHit) {
 }
 
 TEST(Film, meansThePartsOfTheAovs) {
-  const Exposed exposed = expose({kWidth, kHeight, {{0.25f, 0.5f}, {0.75f, 0.5f}}, true, {}});
+  const Exposed exposed = expose({kWidth, kHeight, {{{0.25f, 0.5f}}, {{0.75f, 0.5f}}}, true, {}});
   for (std::uint32_t p = 0; p < kWidth * kHeight; p += 2) ASSERT_EQ(exposed.aovs[p].albedo.x, 0.5f) << p;
 }
 
 TEST(Film, countsNonfiniteSamplesOfThisPictureOnly) {
-  Film film(device(), {kWidth, kHeight, {{0.5f, 0.5f}}, false, {}});
+  Film film(device(), {kWidth, kHeight, {{{0.5f, 0.5f}}}, false, {}});
   Pattern broken(film.buffers());
   broken.nanAt = 5 * kWidth + 7;
   const Exposed first = expose(film, broken);
