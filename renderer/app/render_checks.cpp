@@ -12,6 +12,7 @@
 #include "app/picture_layers.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "effects/material_traits.h"
 #include "gpu/box_search.h"
 #include "raster/strip.h"
 
@@ -63,6 +64,15 @@ std::uint64_t targetBytes(const RenderSettings& s) {
   constexpr std::uint64_t kColor = 16, kDepth = 4;
   const std::uint64_t perPixel = s.msaa * (kColor + kDepth) + (s.msaa > 1 ? kColor : 0) + (s.aovs.empty() ? 0 : kDepth);
   return std::uint64_t{s.width} * rowsPerStrip(s.width, s.height, s.msaa) * perPixel;
+}
+
+// At most: with what is transparent, and every light a cube.
+std::uint64_t shadowMapBytes(const Scene& scene, const RenderSettings& s) {
+  if (s.rasterShadows != RasterShadows::maps) return 0;
+  constexpr std::uint64_t kWords = 6, kWordBytes = 4, kFaces = 6, kTargets = 16 + 4 + 4;
+  const std::uint64_t texels = std::uint64_t{s.shadowMaps.size} * s.shadowMaps.size;
+  const bool pale = std::any_of(scene.materials.begin(), scene.materials.end(), isTransparent);
+  return texels * (scene.lights.size() * kFaces * (pale ? kWords : 1) * kWordBytes + kTargets);
 }
 
 // The number after `key` in a file like /proc/meminfo, or the file's first number without a key.
@@ -155,7 +165,7 @@ MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& reques
   MemoryNeed need;
   need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
   need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
-                            (isTraced(s.method) ? 0 : targetBytes(s));
+                            (isTraced(s.method) ? 0 : targetBytes(s) + shadowMapBytes(*request.scene, s));
   const SceneBytes scene = sceneBytes(request, trianglesSaved);
   need.deviceSceneBytes = scene.onDevice;
   need.hostSceneBytes = std::max(scene.building, scene.built);

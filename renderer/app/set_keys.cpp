@@ -1,5 +1,8 @@
 #include "app/set_keys.h"
 
+#include <charconv>
+#include <cmath>
+
 #include "app/suggest.h"
 #include "base/error.h"
 
@@ -30,12 +33,41 @@ const std::vector<SetKey>& setKeys() {
        {Method::whitted},
        [](RenderSettings& s, std::size_t value) { s.hitQueues = static_cast<HitQueues>(value); }},
       {"raster-shadows",
-       {"off", "rays"},
-       "shadows of the raster methods: none, or exact ones by rays; where a method evaluates lighting",
+       {"off", "maps", "rays"},
+       "shadows of the raster methods: none, from depth maps, or exact ones by rays; where a method evaluates lighting",
+       {Method::flat, Method::gouraud, Method::phong},
+       [](RenderSettings& s, std::size_t value) { s.rasterShadows = static_cast<RasterShadows>(value); }},
+      {"shadow-map-size",
+       {"1024", "256", "512", "2048", "4096"},
+       "texels a side of each shadow map: a spot's, a cube's face, a cascade",
        {Method::flat, Method::gouraud, Method::phong},
        [](RenderSettings& s, std::size_t value) {
-         s.rasterShadows = value == 1 ? RasterShadows::rays : RasterShadows::off;
+         constexpr std::uint32_t kSizes[] = {1024, 256, 512, 2048, 4096};
+         s.shadowMaps.size = kSizes[value];
        }},
+      {"shadow-filter",
+       {"3", "1", "5", "soft"},
+       "texels a side that a shadow map's lookup averages; soft: as wide as light-radius makes the penumbra",
+       {Method::flat, Method::gouraud, Method::phong},
+       [](RenderSettings& s, std::size_t value) {
+         constexpr std::uint32_t kSizes[] = {3, 1, 5, 3};
+         s.shadowMaps.filterSize = kSizes[value];
+         s.shadowMaps.soft = value == 3;
+       }},
+      {"shadow-cascades",
+       {"3", "1", "2", "4"},
+       "shadow maps of a directional light, from the camera on",
+       {Method::flat, Method::gouraud, Method::phong},
+       [](RenderSettings& s, std::size_t value) {
+         constexpr std::uint32_t kCounts[] = {3, 1, 2, 4};
+         s.shadowMaps.cascades = kCounts[value];
+       }},
+      {"light-radius",
+       {},
+       "of lights that have no size, for shadow-filter=soft: scene units, of directional lights radians",
+       {Method::flat, Method::gouraud, Method::phong},
+       nullptr,
+       [](RenderSettings& s, double value) { s.shadowMaps.lightRadius = value; }},
       {"msaa.shading",
        {"pixel", "sample"},
        "with --msaa: light each pixel's fragment once, or every coverage sample where it lies",
@@ -75,6 +107,19 @@ const std::vector<SetKey>& setKeys() {
   return keys;
 }
 
+namespace {
+
+double numberOf(const std::string& key, const std::string& text) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = !text.empty() && error == std::errc{} && stop == text.data() + text.size();
+  if (!whole || !(value >= 0) || !std::isfinite(value))
+    throw UsageError("--set " + key + ": '" + text + "' is no number from 0 on, e.g. " + key + "=0.25");
+  return value;
+}
+
+}  // namespace
+
 std::vector<std::string> allSetPairs() {
   std::vector<std::string> pairs;
   for (const SetKey& row : setKeys()) {
@@ -87,7 +132,8 @@ std::string setKeysExplained() {
   std::string text;
   for (const SetKey& row : setKeys()) {
     if (!text.empty()) text += "; ";
-    text += std::string(row.key) + "=" + joined(row.values, "|") + " (" + row.meaning + ")";
+    const std::string values = row.applyNumber != nullptr ? "NUMBER" : joined(row.values, "|");
+    text += std::string(row.key) + "=" + values + " (" + row.meaning + ")";
   }
   return text;
 }
@@ -100,6 +146,10 @@ const SetKey& applySet(const std::string& pair, RenderSettings& settings) {
     names.push_back(row.key);
     if (key != row.key) continue;
     const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
+    if (row.applyNumber != nullptr) {
+      row.applyNumber(settings, numberOf(key, value));
+      return row;
+    }
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       if (value != row.values[i]) continue;
       row.apply(settings, i);

@@ -14,6 +14,8 @@ struct SetKey {
   const char* meaning;
   std::vector<Method> methods;  // that heed it; empty: all
   void (*apply)(RenderSettings& settings, std::size_t value);
+  // Of keys without a list of values: any finite number from 0 on.
+  void (*applyNumber)(RenderSettings& settings, double value) = nullptr;
 };
 
 const std::vector<SetKey>& setKeys();

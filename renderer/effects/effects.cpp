@@ -173,7 +173,7 @@ class Analysis {
     if (settings_.method == Method::wireframe) return add(Effect::shadows, "shadows", false, "edges are not lit");
     if (!wanted) {
       return add(Effect::shadows, "shadows", false,
-                 traced_ ? "switched off" : "raster shows no shadows; --set raster-shadows=rays traces them");
+                 traced_ ? "switched off" : "raster shows no shadows; --set raster-shadows=rays or maps does");
     }
     const bool lit = !scene_.lights.empty();
     add(Effect::shadows, "shadows", lit,

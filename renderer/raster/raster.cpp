@@ -33,7 +33,7 @@ class Raster final : public Technique {
         buffers_(buffers),
         lists_(makeDrawLists(scene.flat(), scene.scene(), plan, settings)),
         uniforms_(device, scene),
-        shadows_(scene, plan, settings),
+        shadows_(device, scene, plan, settings),
         layout_(device, bindings(), std::max(sizeof(RasterPush), sizeof(VertexShadowPush))),
         set_(device, layout_),
         commands_(device),
@@ -72,7 +72,7 @@ class Raster final : public Technique {
   }
 
   std::map<std::string, std::uint64_t> counters() const override {
-    return {{"draws", draws_}, {"traversalsCapped", capped_}};
+    return {{"draws", draws_}, {"traversalsCapped", capped_}, {"shadowMaps", shadows_.mapCount()}};
   }
 
  private:

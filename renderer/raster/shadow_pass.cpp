@@ -39,16 +39,25 @@ float reachOf(const Bounds& bounds) {
 
 }  // namespace
 
-ShadowPass::ShadowPass(const GpuScene& scene, const Plan& plan, const RenderSettings& settings)
-    : scene_(scene), mode_(modeOf(plan, settings)), lightsVertices_(mode_ != kShadowsOff && lightsVertices(settings)) {}
+ShadowPass::ShadowPass(const gpu::Device& device, const GpuScene& scene, const Plan& plan,
+                       const RenderSettings& settings)
+    : scene_(scene),
+      mode_(modeOf(plan, settings)),
+      lightsVertices_(mode_ != kShadowsOff && lightsVertices(settings)),
+      filter_(settings.shadowMaps.soft ? 0 : settings.shadowMaps.filterSize) {
+  if (mode_ == kShadowsByMaps) maps_.emplace(device, scene, plan, settings);
+}
 
 std::vector<gpu::Binding> ShadowPass::bindings() const {
   std::vector<gpu::Binding> all;
   if (lightsVertices_) all.push_back({kBindVertexVisibility, gpu::BindingType::storageBuffer});
+  if (maps_) {
+    for (const gpu::Binding& binding : ShadowMaps::bindings()) all.push_back(binding);
+  }
   return all;
 }
 
-gpu::Constants ShadowPass::constants() const { return {{kSpecRasterShadows, mode_}}; }
+gpu::Constants ShadowPass::constants() const { return {{kSpecRasterShadows, mode_}, {kSpecShadowFilter, filter_}}; }
 
 std::string ShadowPass::promise() const {
   if (mode_ == kShadowsOff) return "without shadows";
@@ -57,6 +66,7 @@ std::string ShadowPass::promise() const {
 }
 
 void ShadowPass::make(const gpu::Device& device, const gpu::BindingLayout& layout, const gpu::Constants& shared) {
+  if (maps_) maps_->makePipelines(device, layout, shared);
   if (!lightsVertices_) return;
   const std::uint64_t values = std::uint64_t{scene_.flat().positions.size()} * std::max(1u, scene_.lightCount());
   vertexVisibility_ = gpu::Buffer(device, "visibility from vertices", values * sizeof(float), gpu::useStorage);
@@ -64,12 +74,14 @@ void ShadowPass::make(const gpu::Device& device, const gpu::BindingLayout& layou
 }
 
 void ShadowPass::bind(gpu::BindingSet& set) const {
+  if (maps_) maps_->bind(set);
   if (lightsVertices_) set.set(kBindVertexVisibility, vertexVisibility_);
 }
 
 void ShadowPass::record(gpu::Commands& commands, const gpu::BindingSet& set) {
   if (mode_ == kShadowsOff || recorded_) return;
   recorded_ = true;
+  if (maps_) maps_->record(commands, set);
   if (lightsVertices_) recordVertices(commands, set);
 }
 

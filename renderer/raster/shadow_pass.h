@@ -3,10 +3,12 @@
 // light.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "effects/effects.h"
 #include "gpu/commands.h"
+#include "raster/shadow_maps.h"
 #include "raster_bindings.h"
 #include "upload/gpu_scene.h"
 
@@ -14,7 +16,7 @@ namespace crosslight {
 
 class ShadowPass {
  public:
-  ShadowPass(const GpuScene& scene, const Plan& plan, const RenderSettings& settings);
+  ShadowPass(const gpu::Device& device, const GpuScene& scene, const Plan& plan, const RenderSettings& settings);
 
   // Of the raster methods' layout: nothing where there are no shadows.
   std::vector<gpu::Binding> bindings() const;
@@ -25,6 +27,7 @@ class ShadowPass {
   // Everything that shading reads; the first time only.
   void record(gpu::Commands& commands, const gpu::BindingSet& set);
   std::string promise() const;  // "without shadows"
+  std::size_t mapCount() const { return maps_ ? maps_->viewCount() : 0; }
   bool walksTrees() const { return mode_ == shared::kShadowsByRays; }
 
  private:
@@ -34,6 +37,8 @@ class ShadowPass {
   std::uint32_t mode_ = shared::kShadowsOff;
   bool lightsVertices_ = false;
   bool recorded_ = false;
+  std::uint32_t filter_ = 0;
+  std::optional<ShadowMaps> maps_;
   gpu::Buffer vertexVisibility_;
   gpu::ComputePipeline vertices_;
 };

@@ -32,8 +32,15 @@ struct Receiver {
   vec3 error;  // bound of the position's rounding error, per axis
   vec3 ng;     // unit, front side
   uint triangle;
+  TriangleCorners corners;
 };
 Receiver receiver_;
+
+#include "raster/shadow_lookup.glsl"
+
+vec4 receiverPlane(ShadowView view) {
+  return planeOf(inView(view, receiver_.corners.v0), inView(view, receiver_.corners.v1), inView(view, receiver_.corners.v2));
+}
 
 // The point of the triangle's plane, and of the triangle, that is nearest to an interpolated position: rasterizers
 // snap corners to a grid and, with several samples per pixel, light pixels' centers beyond the triangle's edge.
@@ -53,7 +60,7 @@ Receiver receiverOn(uint triangle, vec3 p, bool flipsWinding) {
   // Sixteen roundings of coordinates as large as the corners': less than two for each difference, product and sum
   // above, and those of the normal.
   vec3 largest = max(max(abs(c.v0), abs(c.v1)), max(abs(c.v2), abs(p)));
-  return Receiver(p, gammaBound(16.0) * largest, ng, triangle);
+  return Receiver(p, gammaBound(16.0) * largest, ng, triangle, c);
 }
 
 float visibleByRay(LightRecord light) {
@@ -65,6 +72,7 @@ float visibleByRay(LightRecord light) {
 
 float lightVisibility(uint light) {
   if (kShadows == kShadowsOff) return 1.0;
+  if (kShadows == kShadowsByMaps) return visibleByMap(light, receiver_.position);
   return visibleByRay(CL_LIGHT(light));
 }
 #else

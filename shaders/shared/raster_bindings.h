@@ -45,6 +45,44 @@ struct RasterPush {
   float displayGain;  // pictures of codes only
 };
 
+// How a light sees the scene: one map. In the list of texels a view has layers of size * size words: distances along
+// `forward` of the nearest blocker; then, only where something transparent is in the scene, those of the nearest
+// transparent surface, and four words per texel of which the first is the share that all of them together let pass.
+struct ShadowView {
+  vec3 right;  // unit, render space
+  vec3 up;
+  vec3 forward;   // the way the light looks
+  vec3 origin;    // the light, or of parallel light the middle of the near side; render space
+  vec2 halfSize;  // of the map: tangents, or of parallel light scene units
+  float zNear;    // nothing nearer to the light casts a shadow; not of parallel light
+  float zFar;     // of parallel light: everything lies between the origin and here
+  float reach;    // no coordinate of the scene, relative to camera or origin, is larger
+  float guard;    // texels between the part of the map that is asked for and its border
+  uint firstTexel;
+  uint size;    // texels a side
+  uint layers;  // 1, or 2 with transparent surfaces
+  uint orthographic;
+};
+CL_SIZE(ShadowView, 88)
+CL_CONST uint kShadowNone = 0u;
+CL_CONST uint kShadowSingle = 1u;    // one view
+CL_CONST uint kShadowCube = 2u;      // six views along +x, -x, +y, -y, +z, -z of render space
+CL_CONST uint kShadowCascades = 3u;  // from fine to coarse; the last one has all of the scene
+struct ShadowLight {
+  uint kind;
+  uint firstView;
+  uint viewCount;
+  float radius;  // for soft shadows: scene units, of parallel light radians
+};
+
+// Passes that draw a view.
+struct ShadowPush {
+  uint view;
+  uint firstTriangle;
+  uint materialId;
+  uint drawFlags;  // kDraw*
+};
+
 // vertex_shadow.comp: visibility of one light from each vertex.
 struct VertexShadowPush {
   uint vertexCount;

@@ -24,6 +24,7 @@ std::string messageOf(const std::function<void()>& action) {
 
 TEST(SetKeys, firstValueIsTheDefaultAndEveryOtherOneChangesSomething) {
   for (const SetKey& row : setKeys()) {
+    if (row.applyNumber != nullptr) continue;
     ASSERT_GE(row.values.size(), 2u) << row.key;
     for (const std::string& value : row.values) {
       RenderSettings settings;
@@ -72,6 +73,24 @@ TEST(RenderOptions, aovsKeepTheOrderOfTheFileWhateverTheOrderOfTheWords) {
   EXPECT_THAT(aovsOf("all"), SizeIs(std::size(kAovNames)));
   EXPECT_THAT(messageOf([] { aovsOf("depth,dept"); }), HasSubstr("Did you mean 'depth'?"));
   EXPECT_THAT(messageOf([] { aovsOf(",depth"); }), HasSubstr("unknown AOV ''"));
+}
+
+TEST(SetKeys, numbersAreReadWholeAndChecked) {
+  RenderSettings settings;
+  applySet("light-radius=0.25", settings);
+  EXPECT_EQ(settings.shadowMaps.lightRadius, 0.25);
+  for (const char* bad : {"light-radius", "light-radius=", "light-radius=-1", "light-radius=1x", "light-radius=nan",
+                          "light-radius=inf"}) {
+    EXPECT_THAT(messageOf([&] { applySet(bad, settings); }), HasSubstr("no number from 0 on")) << bad;
+  }
+}
+
+TEST(SetKeys, sizesOfShadowMapsAreWhatTheySay) {
+  for (const std::uint32_t size : {256u, 512u, 1024u, 2048u, 4096u}) {
+    RenderSettings settings;
+    applySet("shadow-map-size=" + std::to_string(size), settings);
+    EXPECT_EQ(settings.shadowMaps.size, size);
+  }
 }
 
 TEST(RenderOptions, defaultsAreThoseOfTheLibrary) {
