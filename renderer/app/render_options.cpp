@@ -8,6 +8,7 @@
 
 #include "app/command_line.h"
 #include "app/frame_plan.h"
+#include "app/lighting_preset.h"
 #include "app/part.h"
 #include "app/picture_samples.h"
 #include "app/progress.h"
@@ -28,6 +29,7 @@ constexpr double kMostStops = 64;                    // 2^64 takes any float rad
 
 const std::vector<std::string> kFilters = {"box", "tent", "gaussian", "mitchell"};
 const std::vector<std::string> kSamplers = {"sobol", "regular", "jittered"};
+const std::vector<std::string> kLightings = {"standard", "opengl"};
 const std::vector<std::string> kToneMaps = {"none", "clamp", "reinhard", "neutral"};
 const std::vector<std::string> kInstanceModes = {"auto", "flatten", "share"};
 const std::vector<std::string> kMsaaCounts = {"1", "2", "4", "8"};
@@ -69,6 +71,12 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
       ->group("Picture");
   line.number(command, "--turn", o.turnDegrees, "DEGREES", -kMostDegrees, kMostDegrees,
               "Turn the camera about the vertical through the scene's middle, counter-clockwise from above")
+      ->group("Picture");
+  line.choice(
+          command, "--lighting", o.lighting, kLightings,
+          "opengl: as the fixed function of OpenGL 1.x, whose parameters the scene may carry: vertex colors clamped "
+          "before interpolation, flat shading from the last vertex, an infinite viewer, fog by depth; --set changes "
+          "single ones of these")
       ->group("Picture");
   line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
             {ValueKind::keyValue, allSetPairs()})
@@ -199,6 +207,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.instances = static_cast<InstanceMode>(indexIn(kInstanceModes, o.instances));
   settings.allEffects = o.effects == "all";
   settings.allowNonfinite = o.allowNonfinite;
+  if (o.lighting == "opengl") lightAsOpenGl(settings);
   for (const std::string& pair : o.set) {
     const SetKey& key = applySet(pair, settings);
     const auto& heed = key.methods;

@@ -40,6 +40,7 @@ struct RenderOptions {
   bool instancesGiven = false;
   std::string bvhCache = "auto";
   bool bvhCacheGiven = false;
+  std::string lighting = "standard";
   std::vector<std::string> set;
   std::string effects = "auto";
   std::string aovs;

@@ -28,6 +28,7 @@ Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
           {"sampler", o.sampler},
           {"msaa", s.msaa},
           {"maxDepth", s.maxDepth},
+          {"lighting", o.lighting},
           {"set", o.set},
           {"effects", o.effects},
           {"exposureStops", o.exposureStops},

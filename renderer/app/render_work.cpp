@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/command_line.h"
+#include "app/lighting_preset.h"
 #include "app/output.h"
 #include "app/picture_layers.h"
 #include "app/progress.h"
@@ -163,6 +164,9 @@ std::optional<DisplayTransform> shownBy(const RenderWork& work) {
 void append(Times&& more, Times& timesMs) { timesMs.insert(timesMs.end(), more.begin(), more.end()); }
 
 RenderResult drawWithProgress(const RenderWork& work, RenderContext& context, const RenderRequest& request) {
+  if (work.options.lighting == "opengl") {
+    for (const std::string& sentence : unlikeOpenGl(*request.scene, request.settings)) logWarning(sentence);
+  }
   const bool quiet = logLevel() == LogLevel::quiet;
   Progress progress(context.task + work.options.method,
                     quiet ? ProgressMode::none : progressModeOfStderr(work.options.progress), writeToStderr);

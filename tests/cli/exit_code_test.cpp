@@ -39,6 +39,7 @@ TEST_F(ExitCodes, wrongUseIsTwoAndTellsWhatThereIs) {
       {{"render", s, "-o", "a.png", "--time", "-1"}, {"'-1' is not a number from 0"}},
       {{"render", s, "-o", "a.png", "--filter", "boks"}, {"unknown filter 'boks'", "box, tent, gaussian, mitchell"}},
       {{"render", s, "-o", "a.png", "--sampler", "halton"}, {"unknown sampler 'halton'", "sobol, regular, jittered"}},
+      {{"render", s, "-o", "a.png", "--lighting", "gl"}, {"unknown lighting 'gl'", "standard, opengl"}},
       {{"render", s, "-o", "a.png", "--set", "shadow=on"}, {"unknown key 'shadow'", "Did you mean 'shadows'?"}},
       {{"render", s, "-o", "a.png", "--set", "shadows=1"}, {"unknown value '1'", "on, off"}},
       {{"render", s, "-o", "a.png", "--aov", "depth"}, {"-o a.exr"}},

@@ -96,6 +96,17 @@ void setLighting(const Scene& scene, const FixedFunctionSettings& s, const glm::
   }
 }
 
+void setFog(const Atmosphere& a) {
+  if (a.fogMode == FogMode::none) return;
+  glEnable(GL_FOG);
+  glHint(GL_FOG_HINT, GL_NICEST);
+  glFogi(GL_FOG_MODE, a.fogMode == FogMode::linear ? GL_LINEAR : (a.fogMode == FogMode::exp ? GL_EXP : GL_EXP2));
+  glFogfv(GL_FOG_COLOR, rgba(a.fogColor).data());
+  glFogf(GL_FOG_START, static_cast<float>(a.fogStart));
+  glFogf(GL_FOG_END, static_cast<float>(a.fogEnd));
+  glFogf(GL_FOG_DENSITY, static_cast<float>(a.fogDensity));
+}
+
 void setMaterial(const Material& m) {
   const bool glossy = m.model == IlluminationModel::blinnPhong;  // OpenGL's only model; Lambert is it without ks
   if (!glossy && m.model != IlluminationModel::lambert) throw std::runtime_error("OpenGL has no model like this");
@@ -165,11 +176,13 @@ FixedFunctionImage drawFixedFunction(const Scene& scene, const FixedFunctionSett
   glEnable(GL_DEPTH_TEST);
   setCamera(camera, settings);
   setLighting(scene, settings, origin);
+  setFog(scene.atmosphere);
   FixedFunctionImage image;
   clear({0.0f, 0.0f, 0.0f, 0.0f});
   drawTriangles(scene, origin, false);
   image.color = context.pixels(settings.width);
   glDisable(GL_LIGHTING);
+  glDisable(GL_FOG);
   glShadeModel(GL_FLAT);
   clear({1.0f, 1.0f, 1.0f, 0.0f});  // kNoTriangle
   drawTriangles(scene, origin, true);

@@ -24,7 +24,7 @@ struct FixedFunctionImage {
 };
 constexpr std::uint32_t kNoTriangle = 0xffffffu;  // 24 bits are what three color bytes hold
 
-// Camera 0 looks. Throws std::runtime_error when OSMesa cannot do it or reports an error.
+// Camera 0 looks, through the scene's fog. Throws std::runtime_error when OSMesa cannot do it or reports an error.
 FixedFunctionImage drawFixedFunction(const Scene& scene, const FixedFunctionSettings& settings);
 
 }  // namespace crosslight::testing
