@@ -164,8 +164,9 @@ MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& reques
   const std::uint64_t pixels = rowsOf(request) * s.width;
   MemoryNeed need;
   need.hostPictureBytes = pixels * (layerBytesPerPixel(s.aovs) + request.fileBytesPerPixel);
-  need.devicePictureBytes = filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows}) +
-                            (isTraced(s.method) ? 0 : targetBytes(s) + shadowMapBytes(*request.scene, s));
+  need.devicePictureBytes =
+      filmBytes(info, {s.width, s.height, {}, !s.aovs.empty(), request.rows, {}, s.adaptiveError}) +
+      (isTraced(s.method) ? 0 : targetBytes(s) + shadowMapBytes(*request.scene, s));
   const SceneBytes scene = sceneBytes(request, trianglesSaved);
   need.deviceSceneBytes = scene.onDevice;
   need.hostSceneBytes = std::max(scene.building, scene.built);

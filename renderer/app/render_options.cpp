@@ -16,6 +16,7 @@
 #include "app/set_keys.h"
 #include "app/suggest.h"
 #include "base/log.h"
+#include "film/adaptive_tiles.h"
 #include "trace/kernels.h"
 
 namespace crosslight {
@@ -25,6 +26,7 @@ constexpr std::uint32_t kMostPixelsPerSide = 65536;  // no device draws more; me
 constexpr std::uint32_t kMostSamples = 1u << 20;     // the film counts samples exactly in a float up to 2^24
 constexpr std::uint32_t kMostDepth = 64;             // a ray tree doubles per level: beyond, only mirrors halls differ
 constexpr double kMostDegrees = 360000;              // a thousand turns
+constexpr double kMostRadiance = 1e6;                // an error above it stops at once
 constexpr double kMostStops = 64;                    // 2^64 takes any float radiance that matters to black or white
 
 const std::vector<std::string> kFilters = {"box", "tent", "gaussian", "mitchell"};
@@ -94,6 +96,10 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
   line.choice(
           command, "--sampler", o.sampler, kSamplers,
           "Where samples lie within a pixel: a low-discrepancy sequence, a grid, or anywhere in each cell of a grid")
+      ->group("Sampling");
+  line.number(command, "--adaptive", o.adaptive, "ERROR", 0, kMostRadiance,
+              "Give tiles of 8x8 pixels no more samples once the standard error of every mean in and beside them is "
+              "below this, linear; --spp is then the most; 0: --spp for all")
       ->group("Sampling");
   noteGiven(line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
                 ->group("Sampling"),
@@ -188,6 +194,16 @@ void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
       ->group("Messages");
 }
 
+// Samples are decided on from the eighth on.
+static void checkAdaptive(const RenderOptions& o) {
+  if (o.adaptive == 0) return;
+  if (!o.part.empty())
+    throw UsageError("--adaptive looks at neighboring tiles, which may be in another part: leave out --part");
+  if (o.spp <= AdaptiveTiles::kFewestSamples)
+    logWarning(fmt::format("--adaptive decides from {} samples on: --spp {} is too few", AdaptiveTiles::kFewestSamples,
+                           o.spp));
+}
+
 RenderSettings checkedSettings(const RenderOptions& o) {
   if (o.scene.empty()) throw UsageError("no scene given: crosslight render SCENE -o OUT.png");
   if (o.output.empty()) throw UsageError("no output given: add -o OUT.png (or .exr, .hdr, .pfm)");
@@ -198,6 +214,8 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.height = resolution.height;
   settings.spp = o.spp;
   settings.filter = static_cast<PixelFilter>(indexIn(kFilters, o.filter));
+  settings.adaptiveError = o.spp > 1 ? static_cast<float>(o.adaptive) : 0.0f;
+  checkAdaptive(o);
   settings.sampler = static_cast<Sampler>(indexIn(kSamplers, o.sampler));
   if (const std::string advice = adviceOnSamples(settings); !advice.empty()) logWarning(advice);
   settings.msaa = 1u << indexIn(kMsaaCounts, o.msaa);

@@ -29,6 +29,7 @@ struct RenderOptions {
   std::uint32_t spp = 1;
   std::string filter = "box";
   std::string sampler = "sobol";
+  double adaptive = 0;
   std::string msaa = "1";
   bool msaaGiven = false;
   std::uint32_t maxDepth = 5;

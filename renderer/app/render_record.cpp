@@ -26,6 +26,7 @@ Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
           {"spp", s.spp},
           {"filter", o.filter},
           {"sampler", o.sampler},
+          {"adaptive", o.adaptive},
           {"msaa", s.msaa},
           {"maxDepth", s.maxDepth},
           {"lighting", o.lighting},

@@ -29,6 +29,13 @@ void checkFinite(const FilmResult& film, const RenderSettings& s) {
   logWarning(text);
 }
 
+void reportAdaptive(const FilmResult& film, const RenderSettings& s, RenderReport& report) {
+  report.counters["pixelsNotDone"] = film.pixelsNotDone;
+  if (film.pixelsNotDone == 0) return;
+  logWarning(fmt::format("{} pixels lie in tiles that {} samples did not bring to an error of {:g}; --spp allows more",
+                         film.pixelsNotDone, s.spp, s.adaptiveError));
+}
+
 std::vector<EffectRecord> recordsOf(const Plan& plan) {
   std::vector<EffectRecord> records;
   for (const EffectVerdict& v : plan.verdicts) records.push_back({v.name, v.on, v.reason});
@@ -74,6 +81,7 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.rasterReflection = RasterReflection::off;
   s.filter = PixelFilter::box;
   s.sampler = Sampler::sobol;
+  s.adaptiveError = 0;
   s.seed = 0;
   s.allowNonfinite = false;
   s.aovs.clear();
@@ -91,8 +99,8 @@ bool same(const std::vector<Band>& a, const std::vector<Band>& b) {
 }
 
 bool same(const FilmSettings& a, const FilmSettings& b) {
-  return a.width == b.width && a.height == b.height && a.samples == b.samples && a.wantAovs == b.wantAovs &&
-         same(a.rows, b.rows) && a.shownBy == b.shownBy;
+  return a.width == b.width && a.height == b.height && a.samples == b.samples && a.adaptiveError == b.adaptiveError &&
+         a.wantAovs == b.wantAovs && same(a.rows, b.rows) && a.shownBy == b.shownBy;
 }
 
 // What is not finite is told apart by floats only: whoever allows it wants the codec's warning too.
@@ -294,7 +302,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.counters = placed.counters;
   report.tree = placed.tree;
   Film& film = impl_->filmFor({settings.width, settings.height, samplesOf(settings), !settings.aovs.empty(),
-                               request.rows, codesOf(request, plan)},
+                               request.rows, codesOf(request, plan), settings.adaptiveError},
                               report);
   phases.lap("upload");
   const std::unique_ptr<Technique> technique = impl_->techniqueFor(plan, placed, film.buffers(), kernels);
@@ -319,7 +327,8 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   report.rays = technique->rays();
   for (const auto& [name, count] : technique->counters()) report.counters[name] = count;
   report.counters["pixels"] = film.exposedPixels();
-  report.counters["samples"] = report.counters["pixels"] * settings.spp;
+  report.counters["samples"] = exposed.samples;
+  if (settings.adaptiveError > 0) reportAdaptive(exposed, settings, report);
   report.nonfinite = exposed.nonfinite;
   report.deviceBytes = impl_->device.peakAllocatedBytes();
   report.neededBytes = need.hostPictureBytes + need.hostSceneBytes + need.devicePictureBytes + need.deviceSceneBytes;

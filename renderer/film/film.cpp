@@ -18,20 +18,29 @@ namespace {
 constexpr std::uint32_t kGroupSize = 64;  // local_size_x of the film's kernels
 constexpr std::uint32_t kTileRows = 8;
 
-std::vector<gpu::Binding> filmBindings() {
+std::vector<gpu::Binding> filmBindings(bool adaptive) {
   using enum gpu::BindingType;
-  return {{kBindSampleColor, storageBuffer},
-          {kBindAovs, storageBuffer},
-          {kBindFilm, storageBuffer},
-          {kBindFilmParts, storageBuffer},
-          {kBindCounters, storageBuffer}};
+  std::vector<gpu::Binding> bindings{{kBindSampleColor, storageBuffer},
+                                     {kBindAovs, storageBuffer},
+                                     {kBindFilm, storageBuffer},
+                                     {kBindFilmParts, storageBuffer},
+                                     {kBindCounters, storageBuffer}};
+  if (adaptive) {
+    for (const gpu::Binding& binding : AdaptiveTiles::bindings()) bindings.push_back(binding);
+  }
+  return bindings;
 }
+
+bool isAdaptive(const FilmSettings& s) { return s.adaptiveError > 0; }
 
 // Per pixel of a band, of all buffers together and of the largest one.
 std::uint64_t bytesPerPixel(const FilmSettings& s) {
-  return sizeof(glm::vec4) + sizeof(FilmPixel) + (s.wantAovs ? sizeof(AovRecord) + sizeof(FilmParts) : 0);
+  return sizeof(glm::vec4) + sizeof(FilmPixel) + (isAdaptive(s) ? sizeof(PixelMoments) : 0) +
+         (s.wantAovs ? sizeof(AovRecord) + sizeof(FilmParts) : 0);
 }
-std::uint64_t largestBytesPerPixel(const FilmSettings& s) { return s.wantAovs ? sizeof(AovRecord) : sizeof(FilmPixel); }
+std::uint64_t largestBytesPerPixel(const FilmSettings& s) {
+  return s.wantAovs ? sizeof(AovRecord) : std::max(sizeof(FilmPixel), isAdaptive(s) ? sizeof(PixelMoments) : 0);
+}
 
 std::uint32_t mostRows(const FilmSettings& s) {
   if (s.rows.empty()) return s.height;
@@ -85,7 +94,7 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
       single_(settings.samples.size() == 1),
       readsSample_(single_ && device.info().isSoftware),
       commands_(device),
-      layout_(device, filmBindings(), sizeof(FilmPush)),
+      layout_(device, filmBindings(isAdaptive(settings)), sizeof(FilmPush)),
       set_(device, layout_) {
   const std::uint64_t pixels = std::uint64_t{bandRows_} * settings.width;
   const std::uint64_t aovs = settings.wantAovs ? pixels : 1;
@@ -112,9 +121,16 @@ Film::Film(const gpu::Device& device, const FilmSettings& settings)
   set_.set(kBindFilm, buffers_.film);
   set_.set(kBindFilmParts, buffers_.parts);
   set_.set(kBindCounters, buffers_.counters);
+  std::uint32_t variant = settings.wantAovs ? kVariantFilmParts : 0u;
+  if (isAdaptive(settings)) {
+    adaptive_ = std::make_unique<AdaptiveTiles>(device, layout_, settings.width, bandRows_, settings.adaptiveError);
+    adaptive_->bind(set_);
+    buffers_.tileList = &adaptive_->list();
+    variant |= kVariantActiveTiles;
+  }
   if (!single_)
-    accumulate_ = gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"),
-                                       {{kSpecVariant, settings.wantAovs ? kVariantFilmParts : 0u}});
+    accumulate_ =
+        gpu::ComputePipeline(device, layout_, gpu::embeddedShader("accumulate.comp"), {{kSpecVariant, variant}});
   resetCounters();
 }
 
@@ -158,7 +174,7 @@ FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sin
   std::size_t firstPixel = 0;
   for (const Band& band : all) {
     Stopwatch watch;
-    renderBand(technique, band, tally, step);
+    renderBand(technique, band, tally, step, result);
     result.renderMs += watch.lapMs();
     readBand(band, firstPixel, sink, result);
     result.readbackMs += watch.lapMs();
@@ -169,12 +185,25 @@ FilmResult Film::expose(Technique& technique, Tally& tally, const PixelSink& sin
 }
 
 // Leaves the sums of the samples in the film, and the AOVs of the pixels' centers in their buffer.
-void Film::renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step) {
+void Film::renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step,
+                      FilmResult& result) {
   const bool centered = settings_.samples.size() == 1 && settings_.samples[0] == PixelSample{};
+  if (adaptive_) adaptive_->begin(band.rowCount);
   for (std::uint32_t i = 0; i < settings_.samples.size(); ++i) {
     const PixelSample& sample = settings_.samples[i];
+    if (adaptive_ && AdaptiveTiles::decidesAfter(i)) adaptive_->decide(commands_, set_, i);
+    if (adaptive_ && adaptive_->count() == 0) {
+      step();
+      continue;
+    }
     if (settings_.wantAovs) clearAovs(band);
-    technique.renderSample({band, settings_.width, sample.offset, i, true, settings_.wantAovs}, tally);
+    SampleRequest request{band, settings_.width, sample.offset, i};
+    request.aovs = settings_.wantAovs;
+    if (adaptive_) request.tiles = adaptive_->count();
+    request.pixels = adaptive_ ? adaptive_->pixelCount() : std::uint64_t{band.rowCount} * settings_.width;
+    technique.renderSample(request, tally);
+    if (adaptive_) adaptive_->addSample(sample.weight);
+    result.samples += request.pixels;
     if (single_) {
       fetchSample(band);
     } else {
@@ -182,9 +211,18 @@ void Film::renderBand(Technique& technique, const Band& band, Tally& tally, cons
     }
     step();
   }
+  const auto taken = static_cast<std::uint32_t>(settings_.samples.size());
+  if (adaptive_ && adaptive_->count() > 0 && AdaptiveTiles::decidesAfter(taken))
+    adaptive_->decide(commands_, set_, taken);
+  if (adaptive_) result.pixelsNotDone += adaptive_->pixelCount();
   if (!settings_.wantAovs || centered) return;
   clearAovs(band);
-  technique.renderSample({band, settings_.width, glm::vec2(0.5f), 0, false, true}, tally);
+  SampleRequest center{band, settings_.width};
+  center.color = false;
+  center.aovs = true;
+  center.pixels = std::uint64_t{band.rowCount} * settings_.width;
+  if (adaptive_) center.tiles = adaptive_->listAll();
+  technique.renderSample(center, tally);
 }
 
 // "Nothing was hit": all zero but the ids.
@@ -204,6 +242,7 @@ void Film::accumulate(const Band& band, bool first, float weight, Tally& tally) 
   push.firstPixel = band.firstRow * settings_.width;
   push.firstSample = first ? 1u : 0u;
   push.weight = weight;
+  push.width = settings_.width;
   commands_.begin();
   commands_.barrier();
   commands_.beginSpan("accumulate");

@@ -6,12 +6,14 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bindings.h"
+#include "film/adaptive_tiles.h"
 #include "film/sample_pattern.h"
 #include "gpu/commands.h"
 #include "image/image_io.h"
@@ -32,6 +34,7 @@ struct FilmBuffers {
   gpu::Buffer codeTable;
   float displayGain = 1;
   bool wantsCodes() const { return bool(codeTable); }
+  const gpu::Buffer* tileList = nullptr;  // where samples are adaptive: tiles of the band by their numbers
 };
 
 // Adds up milliseconds and counts by name over many submissions, in the order of first use.
@@ -49,6 +52,9 @@ struct SampleRequest {
   std::uint32_t width = 0;
   glm::vec2 offset{0.5f};
   std::uint32_t index = 0;  // of the sample
+  // Where samples are adaptive: how many tiles of FilmBuffers::tileList count. Others may be left as they are.
+  std::optional<std::uint32_t> tiles = {};
+  std::uint64_t pixels = 0;  // that get the sample
   bool color = true;
   bool aovs = false;
 };
@@ -73,6 +79,9 @@ struct FilmSettings {
   std::vector<Band> rows = {};  // those that are exposed, ascending; empty: all
   // Only the codes of this transform are wanted, which hasCodeTable(): one sample, no AOVs, and a technique that can.
   std::optional<DisplayTransform> shownBy = {};
+  // Standard error of a channel's mean, linear, that is good enough: tiles of 8 x 8 pixels get no more samples once all
+  // their pixels and those of the tiles beside them have it. 0: all samples for all.
+  float adaptiveError = 0;
 };
 
 // Finished pixels in a row. The pixels of the exposed rows count from 0 on, in their order, whatever lies between.
@@ -88,6 +97,8 @@ struct FilmResult {
   std::uint64_t nonfinite = 0;
   std::uint32_t firstNonfinitePixel = 0;  // when nonfinite > 0
   double renderMs = 0, readbackMs = 0;
+  std::uint64_t samples = 0;        // over all pixels
+  std::uint64_t pixelsNotDone = 0;  // adaptive: in tiles that had all samples and wanted more
 };
 
 class Film {
@@ -106,7 +117,8 @@ class Film {
 
   std::vector<Band> bands() const;
   void resetCounters();
-  void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step);
+  void renderBand(Technique& technique, const Band& band, Tally& tally, const std::function<void()>& step,
+                  FilmResult& result);
   void clearAovs(const Band& band);
   void accumulate(const Band& band, bool first, float weight, Tally& tally);
   void fetchSample(const Band& band);
@@ -124,6 +136,7 @@ class Film {
   bool single_ = false;       // one sample: it is the mean, and nothing is summed on the device
   bool readsSample_ = false;  // single, and the host reaches the sample where it lies
   FilmBuffers buffers_;
+  std::unique_ptr<AdaptiveTiles> adaptive_;
   gpu::Buffer emptyAovs_;  // "nothing was hit", a few records; only when AOVs are wanted
   gpu::Commands commands_;
   gpu::BindingLayout layout_;

@@ -65,13 +65,14 @@ double Film::sumOfWeights() const {
 }
 
 void Film::readMean(std::size_t first, std::span<glm::vec4> picture) {
-  const double weights = sumOfWeights();
   pixels_.resize(picture.size());
   buffers_.film.read(first * sizeof(FilmPixel), std::as_writable_bytes(std::span(pixels_)));
+  const double all = sumOfWeights();
   for (std::size_t i = 0; i < picture.size(); ++i) {
+    const double weight = adaptive_ ? adaptive_->weightAt(first + i) : all;
     for (int c = 0; c < 4; ++c) {
       const double sum = static_cast<double>(pixels_[i].sum[c]) - static_cast<double>(pixels_[i].compensation[c]);
-      picture[i][c] = static_cast<float>(sum / weights);
+      picture[i][c] = static_cast<float>(sum / weight);
     }
   }
 }
@@ -81,8 +82,9 @@ void Film::readAovs(std::size_t first, std::span<AovRecord> aovs) {
   if (single_) return;  // its parts are their own means
   parts_.resize(aovs.size());
   buffers_.parts.read(first * sizeof(FilmParts), std::as_writable_bytes(std::span(parts_)));
-  const auto scale = static_cast<float>(1.0 / sumOfWeights());
+  const double all = sumOfWeights();
   for (std::size_t i = 0; i < aovs.size(); ++i) {
+    const auto scale = static_cast<float>(1.0 / (adaptive_ ? adaptive_->weightAt(first + i) : all));
     aovs[i].albedo = parts_[i].albedo * scale;
     aovs[i].ambient = parts_[i].ambient * scale;
     aovs[i].diffuse = parts_[i].diffuse * scale;

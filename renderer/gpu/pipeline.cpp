@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "gpu/impl.h"
+#include "gpu/spirv_sample_inputs.h"
 #include "gpu/spirv_specialize.h"
 
 namespace crosslight::gpu {
@@ -31,9 +32,11 @@ struct Specialization {
   vk::SpecializationInfo info;
 };
 
-vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code, const Constants& constants) {
+vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code, const Constants& constants,
+                                bool atSamples = false) {
   CL_CHECK(!code.words.empty());
-  const std::vector<std::uint32_t> words = specialized(code.words, constants);
+  std::vector<std::uint32_t> words = specialized(code.words, constants);
+  if (atSamples) words = withSampleInputs(words);
   vk::raii::ShaderModule module(device.device, vk::ShaderModuleCreateInfo({}, 4 * words.size(), words.data()));
   nameObject(device, module, std::string(code.name));
   return module;
@@ -158,7 +161,7 @@ vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& s
       stageInfo(vk::ShaderStageFlagBits::eVertex, vertex, specialization)};
   vk::raii::ShaderModule fragment{nullptr};
   if (!state.fragment.words.empty()) {
-    fragment = moduleOf(device, state.fragment, state.constants);
+    fragment = moduleOf(device, state.fragment, state.constants, state.shadePerSample);
     stages.push_back(stageInfo(vk::ShaderStageFlagBits::eFragment, fragment, specialization));
   }
   const FixedState fixed(state);

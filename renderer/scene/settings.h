@@ -39,6 +39,8 @@ struct RenderSettings {
   std::uint32_t spp = 1;  // samples per pixel, the same sub-pixel positions in raster and rays; 1: the pixel's center
   PixelFilter filter = PixelFilter::box;
   Sampler sampler = Sampler::sobol;
+  // Standard error of a channel's mean at which a tile of 8 x 8 pixels gets no more samples; 0: spp for all.
+  float adaptiveError = 0;
   std::uint32_t msaa = 1;        // raster only: coverage samples 1, 2, 4, 8
   bool shadesPerSample = false;  // raster with msaa: light every coverage sample, not the pixel once
   std::uint32_t maxDepth = 5;    // whitted: ray segments after the primary one; 0 is direct light only

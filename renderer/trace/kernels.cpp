@@ -21,9 +21,9 @@ constexpr std::uint32_t kPacketLanes = 8;  // kLanes of shaders/accel/packet.gls
 constexpr std::uint32_t kLightBatch = 16;
 
 // A kernel may be asked for any of these together.
-constexpr std::uint32_t kVariants[] = {kVariantOrthographic, kVariantManyLights,  kVariantRest,
-                                       kVariantAovs,         kVariantTree,        kVariantQueue,
-                                       kVariantFewShapes,    kVariantSharedLoads, kVariantInstances};
+constexpr std::uint32_t kVariants[] = {kVariantOrthographic, kVariantManyLights, kVariantRest,      kVariantAovs,
+                                       kVariantTree,         kVariantQueue,      kVariantFewShapes, kVariantSharedLoads,
+                                       kVariantInstances,    kVariantTiles};
 constexpr bool areApart() {
   std::uint32_t seen = 0;
   for (const std::uint32_t bit : kVariants) {
@@ -142,6 +142,7 @@ std::uint32_t variantOf(const Scene& scene, const Plan& plan, const RenderSettin
   if (scene.cameras[static_cast<std::size_t>(settings.camera)].orthographic) variant |= kVariantOrthographic;
   if (scene.lights.size() > kLightBatch) variant |= kVariantManyLights;
   if (branches(plan)) variant |= kVariantTree;
+  if (settings.adaptiveError > 0) variant |= kVariantTiles;
   if (shapes <= kMostBoxedShapes) variant |= kVariantFewShapes;
   if (choice.family == KernelFamily::packet) variant |= kVariantSharedLoads;
   return variant;
@@ -157,11 +158,12 @@ bool driverKeepsCode() {
   return true;
 }
 
-gpu::BindingLayout layoutOn(const gpu::Device& device, const KernelChoice& choice) {
+gpu::BindingLayout layoutOn(const gpu::Device& device, const KernelChoice& choice, bool byTiles) {
   std::vector<gpu::Binding> bindings =
       sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs,
                      kBindRest, kBindQueues},
                     {kBindRayTexels, kBindHitTexels, kBindNodeTexels, kBindHitClasses});
+  if (byTiles) bindings.push_back({kBindTileList, gpu::BindingType::texelBufferUint1});
   if (choice.byDevice) bindings.push_back({kBindTriangleBoxes, gpu::BindingType::boxSearch});
   return {device, std::move(bindings), sizeof(TracePush)};
 }
@@ -183,7 +185,7 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
       choice_(chooseKernels(device.info(), plan, settings, sharedTrees)),
       variant_(variantOf(scene, plan, settings, choice_) | (sharedTrees ? kVariantInstances : 0u)),
       classes_(classifyHits(scene, plan, settings)),
-      layout_(layoutOn(device, choice_)),
+      layout_(layoutOn(device, choice_, (variant_ & kVariantTiles) != 0)),
       warmUp_(device, layout_) {
   const std::uint32_t queued = classes_.classes.empty() ? 0 : kVariantQueue;
   for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.gather}) begin({name});
@@ -215,7 +217,7 @@ void KernelPipelines::compileElsewhere(const KernelKey& key) const {
     gpu::DeviceOptions options;
     options.selector = std::to_string(device_.info().index);
     const gpu::Device other = gpu::Device::open(options);
-    const gpu::BindingLayout layout = layoutOn(other, choice_);
+    const gpu::BindingLayout layout = layoutOn(other, choice_, (variant_ & kVariantTiles) != 0);
     const gpu::ComputePipeline pipeline = makeOn(other, layout, key);
     gpu::WarmUp(other, layout).add(pipeline);
   } catch (const Error&) {
@@ -242,7 +244,7 @@ void KernelPipelines::wait() {
   while (!pending_.empty()) get(KernelKey(pending_.begin()->first));
 }
 
-gpu::Constants KernelPipelines::constants() const { return constantsOf(plan_, variant_); }
+gpu::Constants KernelPipelines::constants() const { return constantsOf(plan_, variant_ & ~kVariantTiles); }
 
 gpu::ComputePipeline KernelPipelines::makeOn(const gpu::Device& device, const gpu::BindingLayout& layout,
                                              const KernelKey& key) const {

@@ -84,7 +84,7 @@ class KernelPipelines {
   const KernelChoice& choice() const { return choice_; }
   const gpu::BindingLayout& layout() const { return layout_; }
   const HitClasses& classes() const { return classes_; }  // none: hits are not queued
-  gpu::Constants constants() const;                       // of the whole scene's plan, without bits of single kernels
+  gpu::Constants constants() const;                       // of the whole scene's plan, for kernels beside the choice
   // Waits for it; makes it when it was not begun: few scenes need kVariantRest.
   const gpu::ComputePipeline& get(const KernelKey& key);
 

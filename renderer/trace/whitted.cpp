@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -42,12 +43,14 @@ class Whitted final : public Technique {
     set_.set(kBindCounters, buffers.counters);
     set_.set(kBindSampleColor, buffers.sampleColor);
     set_.set(kBindAovs, buffers.aovs);
+    if (settings.adaptiveError > 0) set_.set(kBindTileList, *buffers.tileList);
   }
 
   void renderSample(const SampleRequest& request, Tally& tally) override {
     scene_.setSample(request.offset);
-    rays_["primary"] += std::uint64_t{request.band.rowCount} * request.width;
-    const std::uint32_t rays = cameraRayCount(request.width, request.band.rowCount);
+    rays_["primary"] += request.pixels;
+    const std::uint32_t rays =
+        request.tiles ? *request.tiles * kTileSize * kTileSize : cameraRayCount(request.width, request.band.rowCount);
     for (std::uint32_t first = 0; first < rays;) {
       const std::uint32_t count = std::min(store_.chunk, rays - first);
       if (traceChunk(request, first, count, tally)) first += count;
@@ -317,6 +320,11 @@ RayTree traceRayTree(std::shared_ptr<KernelPipelines> kernels, const gpu::Device
   buffers.aovs = buffer("AOV records", sizeof(AovRecord));
   buffers.counters = gpu::Buffer::of(device, "counters", std::vector<std::uint32_t>(kCounterCount, 0u),
                                      gpu::useStorage | gpu::useReadback);
+  // Where the kernels look tiles up: those of this band, all of them.
+  std::vector<std::uint32_t> tiles((settings.width + kTileSize - 1) / kTileSize);
+  std::iota(tiles.begin(), tiles.end(), 0u);
+  const gpu::Buffer tileList = gpu::Buffer::of(device, "tiles of the band", tiles, gpu::useUniformTexel);
+  buffers.tileList = &tileList;
   Whitted tracer(device, scene, plan, settings, buffers, kernels, 1);
   LevelRecorder recorder(device, *kernels, scene, tracer.nodeCapacity());
   const std::uint32_t firstRow = pixel.y / kTileSize * kTileSize;

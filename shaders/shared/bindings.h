@@ -61,6 +61,10 @@ CL_CONST uint kBindInstances = 32;          // texel buffer, RGBA32UI, 5 per Ins
 CL_CONST uint kBindInstanceTriangles = 33;  // texel buffer, RGBA32UI, 2 per InstanceTriangle
 CL_CONST uint kBindShapeBoxes = 34;     // texel buffer, RGBA32UI, 2 per bounded shape, in fours: lower and upper corner
 CL_CONST uint kBindTriangleBoxes = 35;  // acceleration structure, a box per triangle: of family ray-query
+CL_CONST uint kBindTileList = 72;       // uint texels: tiles of the band that get a sample; kVariantTiles
+CL_CONST uint kBindActiveTiles = 73;    // uint[tiles of the band]: 1 where the tile is in that list
+CL_CONST uint kBindTileErrors = 74;     // float[tiles of the band]
+CL_CONST uint kBindMoments = 75;        // PixelMoments[pixels of the band]
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 
@@ -72,7 +76,8 @@ CL_CONST uint kSpecEffects = 3;  // bits of CL_EFFECTS
 CL_CONST uint kSpecVariant = 4;  // of one shader; documented there
 // Of raster methods (bit 0) and of accumulate.
 CL_CONST uint kVariantClampVertexColors = 1u;
-CL_CONST uint kVariantFilmParts = 1u;  // FilmParts too
+CL_CONST uint kVariantFilmParts = 1u;    // FilmParts too
+CL_CONST uint kVariantActiveTiles = 2u;  // only active tiles, and moments
 // Of the kernels of rays, of which one may have several.
 CL_CONST uint kVariantOrthographic = 2u;   // rays of the camera do not begin at one point
 CL_CONST uint kVariantManyLights = 4u;     // lights come in several batches
@@ -83,6 +88,7 @@ CL_CONST uint kVariantQueue = 64u;         // only the rays in the queue of Trac
 CL_CONST uint kVariantFewShapes = 128u;    // a list of the shapes' boxes instead of a tree
 CL_CONST uint kVariantSharedLoads = 256u;  // subgroups of 8 lanes may load together
 CL_CONST uint kVariantInstances = 512u;    // instances share trees; hits name flattened triangles
+CL_CONST uint kVariantTiles = 4096u;       // only the tiles of kBindTileList
 CL_CONST uint kMostBoxedShapes = 32u;      // bounded ones at most for kVariantFewShapes: one bit each
 
 // kBindQueues: per class the three words of an indirect dispatch and how many there are; then per class as many words
@@ -166,6 +172,14 @@ struct FilmParts {
 };
 CL_SIZE(FilmParts, 60)
 
+// Of a pixel's samples: the first, and how the others deviate from it.
+struct PixelMoments {
+  vec3 first;
+  vec3 sum;
+  vec3 squares;
+};
+CL_SIZE(PixelMoments, 36)
+
 // Push constants of the compute kernels.
 struct TracePush {
   uint firstNode;     // of the level; 0: the camera's rays
@@ -185,6 +199,8 @@ struct FilmPush {
   uint firstPixel;
   uint firstSample;  // 1: start the sums, do not add to them
   float weight;      // of the sample
+  uint width;        // of the band, for tiles
+  uint samples;      // so far
 };
 CL_SHARED_END
 

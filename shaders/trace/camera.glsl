@@ -6,6 +6,8 @@
 // Every other bit of a Morton index within a tile.
 uint everyOther(uint bits) { return (bits & 1u) | ((bits >> 1u) & 2u) | ((bits >> 2u) & 4u); }
 
+layout(set = 0, binding = kBindTileList) uniform usamplerBuffer tileList;
+
 struct CameraPlace {
   uvec2 at;      // pixel within the band
   bool outside;  // of the image: its tile overhangs the edge
@@ -15,6 +17,7 @@ CameraPlace cameraPlace(uint ray) {
   uint inTiles = pushed.firstInTiles + ray;
   uint tilesAcross = (frame.resolution.x + kTileSize - 1u) / kTileSize;
   uint tile = inTiles / (kTileSize * kTileSize);
+  if ((specVariant & kVariantTiles) != 0u) tile = texelFetch(tileList, int(tile)).x;
   uint within = inTiles % (kTileSize * kTileSize);
   uvec2 at = kTileSize * uvec2(tile % tilesAcross, tile / tilesAcross) + uvec2(everyOther(within), everyOther(within >> 1u));
   return CameraPlace(at, ray >= pushed.nodeCount || at.x >= frame.resolution.x || at.y >= pushed.bandRows);

@@ -46,6 +46,7 @@ TEST_F(ExitCodes, wrongUseIsTwoAndTellsWhatThereIs) {
       {{"render", s, "-o", "a.exr", "--aov", "dept"}, {"unknown AOV 'dept'", "Did you mean 'depth'?"}},
       {{"render", s, "-o", "a.png", "--camera", "no such camera"}, {"no such camera"}},
       {{"render", s, "-o", "a.png", "--scene", "no such scene"}, {"no such scene"}},
+      {{"render", s, "-o", "a.clpart", "--part", "1/2", "--spp", "64", "--adaptive", "0.1"}, {"leave out --part"}},
       {{"render", s, "-o", "a.png", "--ray-tree", "1,1"}, {"--ray-tree is of rays", "--method whitted"}},
       {{"render", s, "-o", "a.png", "--method", "whitted", "-r", "8x6", "--ray-tree", "8,0"}, {"'8,0'", "0 to 7"}},
       {{"render", s, "-o", "a.png", "--method", "whitted", "--ray-tree", "1"}, {"is no pixel X,Y"}},

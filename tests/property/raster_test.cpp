@@ -81,8 +81,9 @@ std::vector<glm::vec4> pictureOf(const Scene& scene, const RenderSettings& setti
 }
 
 // Vulkan's standard positions of four samples (26.3, "Multisampling"): where each is lit by itself a pixel is the mean
-// of four pictures that are lit there. Interpolation at a moved sample and in a moved picture round differently: 1e-5
-// of values up to 1 is a hundred roundings; lit once per pixel, textures differ by hundredths.
+// of four pictures that are lit there. Vertices lie on a grid of 1/256 pixel, onto which a moved picture rounds anew:
+// that much of the texture's steepest slope, about 1 per pixel, is what may differ. Lit once per pixel it differs by
+// tenfold.
 TEST(SampleShading, lightsEverySampleWhereItLies) {
   const std::vector<std::uint32_t>& counts = device().info().msaaCounts;
   if (std::find(counts.begin(), counts.end(), 4u) == counts.end()) GTEST_SKIP() << "no MSAA 4";
@@ -99,9 +100,9 @@ TEST(SampleShading, lightsEverySampleWhereItLies) {
     }
     return largest;
   };
-  EXPECT_GT(largestTo(pictureOf(scene, settings, {})), 1e-2f) << "the texture does not tell the two apart";
+  EXPECT_GT(largestTo(pictureOf(scene, settings, {})), 8.0f / 256) << "the texture does not tell the two apart";
   settings.shadesPerSample = true;
-  EXPECT_LE(largestTo(pictureOf(scene, settings, {})), 1e-5f);
+  EXPECT_LE(largestTo(pictureOf(scene, settings, {})), 1.0f / 256);
 }
 
 // Rows of the picture drawn by themselves, in two pieces: through a target that is copied, not the film's own memory.
