@@ -26,6 +26,7 @@ target_link_libraries(crosslight INTERFACE glm::glm)
 # Public headers: what renderer/app/crosslight.h reaches. tests/consumer would not compile without any of them.
 set(public_headers
   app/render_job.h
+  trace/ray_tree.h
   base/error.h base/interrupt.h base/log.h
   gpu/device.h
   image/image.h image/image_io.h

@@ -78,7 +78,6 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.shadows = s.reflection = s.refraction = true;
   if (s.rasterShadows != RasterShadows::rays) s.rasterShadows = RasterShadows::off;  // rays need a tree
   s.shadowMaps = {};
-  s.rasterReflection = RasterReflection::off;
   s.filter = PixelFilter::box;
   s.sampler = Sampler::sobol;
   s.adaptiveError = 0;

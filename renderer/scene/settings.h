@@ -17,7 +17,6 @@ enum class InstanceMode { automatic, flatten, share };  // trees of instances (r
 enum class HitQueues { automatic, on, off };            // of hits by what their surfaces ask for: same image
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
-enum class RasterReflection { off, planar, probe };     // of flat, gouraud and phong: what mirrors show
 enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
 
 // Of RasterShadows::maps.
@@ -53,7 +52,6 @@ struct RenderSettings {
   bool refraction = true;                            // whitted; off: transmitted light goes straight on
   RasterShadows rasterShadows = RasterShadows::off;
   ShadowMapSettings shadowMaps;
-  RasterReflection rasterReflection = RasterReflection::off;
   bool infiniteViewer = false;
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;

@@ -2,17 +2,13 @@
 // Fig. 2. The numbers are those of the picture: added up in the same order they give its bits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <memory>
 #include <optional>
 #include <vector>
-
-#include "effects/effects.h"
-#include "trace/kernels.h"
-#include "upload/gpu_scene.h"
 
 namespace crosslight {
 
@@ -51,9 +47,5 @@ struct RayTree {
   glm::vec4 color{0.0f};           // premultiplied: value and coverage of the first node with all that follows
   std::vector<RayTreeNode> nodes;  // the camera's ray first, parents before their children; a preorder
 };
-
-// The tree of the ray through a pixel's center. With the pipelines of the picture.
-RayTree traceRayTree(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device, GpuScene& scene,
-                     const Plan& plan, const RenderSettings& settings, const glm::uvec2& pixel);
 
 }  // namespace crosslight

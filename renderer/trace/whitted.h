@@ -7,6 +7,7 @@
 #include "effects/effects.h"
 #include "film/film.h"
 #include "trace/kernels.h"
+#include "trace/ray_tree.h"
 #include "upload/gpu_scene.h"
 
 namespace crosslight {
@@ -21,5 +22,9 @@ std::unique_ptr<Technique> makeWhitted(const gpu::Device& device, GpuScene& scen
 std::unique_ptr<Technique> makeWhittedWith(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device,
                                            GpuScene& scene, const Plan& plan, const RenderSettings& settings,
                                            FilmBuffers& buffers);
+
+// The tree of the ray through a pixel's center, with the pipelines of the picture.
+RayTree traceRayTree(std::shared_ptr<KernelPipelines> kernels, const gpu::Device& device, GpuScene& scene,
+                     const Plan& plan, const RenderSettings& settings, const glm::uvec2& pixel);
 
 }  // namespace crosslight

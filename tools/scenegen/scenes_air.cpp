@@ -20,7 +20,7 @@ void ballsInFog(GltfBuilder& gltf, Json fog) {
     gltf.addRoot(shapeNode(gltf, "ball", {.params = {0.8, 0.0, 0.0}, .segments = 40}, material, places[i]));
   }
   addDirectionalLight(gltf, "sun", {0.5, -1.0, -0.6}, {.color = dvec3(0.9)});
-  addCamera(gltf, {.eye = {0.0, 1.7, 7.0}, .target = {0.0, 0.9, 0.0}, .yFovDegrees = 40.0});
+  addCamera(gltf, {.eye = {0.0, 1.7, 7.0}, .target = {0.0, 0.9, 0.0}, .yFovDegrees = 50.0});
   gltf.setAtmosphere({{"ambient", listOf(dvec3(0.2))}, {"background", listOf({0.20, 0.35, 0.60})}, {"fog", fog}});
 }
 
