@@ -8,6 +8,7 @@
 #include "app/picture_layers.h"
 #include "app/render_record.h"
 #include "app/render_work.h"
+#include "app/scene_extras.h"
 #include "app/video_pipe.h"
 #include "base/file.h"
 #include "base/interrupt.h"
@@ -37,6 +38,9 @@ class FrameScenes {
     if (posed_ != nullptr) before(*posed_);
     if (moves) {
       posed_ = std::make_shared<Scene>(file_.pose(frame.timeSeconds));
+      posed_->atmosphere.environment.map = map_;
+      completeScene(*posed_, options_);
+      map_ = posed_->atmosphere.environment.map;
       cameras_ = posed_->cameras;
       lights_ = posed_->lights;
       camera_ = cameraOf(*posed_, options_);
@@ -56,7 +60,8 @@ class FrameScenes {
   const RenderOptions& options_;
   SceneFile file_;
   std::shared_ptr<Scene> posed_;
-  std::vector<Camera> cameras_;  // before the turn
+  std::shared_ptr<const EnvironmentMap> map_;  // read once
+  std::vector<Camera> cameras_;                // before the turn
   std::vector<Light> lights_;
   int camera_ = 0;
   double posedSeconds_ = 0, turnedDegrees_ = 0;

@@ -83,6 +83,9 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
             {ValueKind::keyValue, allSetPairs()})
       ->group("Picture");
+  line.text(command, "--environment", o.environment, "FILE",
+            "Light from all around: an equirectangular .hdr, .exr or .pfm instead of the scene's", ValueKind::file)
+      ->group("Picture");
   line.choice(command, "--effects", o.effects, {"auto", "all"},
               "Compile and run what the scene calls for, or everything; the image is the same")
       ->group("Picture");

@@ -43,6 +43,7 @@ struct RenderOptions {
   bool bvhCacheGiven = false;
   std::string lighting = "standard";
   std::vector<std::string> set;
+  std::string environment;
   std::string effects = "auto";
   std::string aovs;
   double exposureStops = 0;

@@ -31,6 +31,7 @@ Json settingsJson(const RenderSettings& s, const RenderOptions& o) {
           {"maxDepth", s.maxDepth},
           {"lighting", o.lighting},
           {"set", o.set},
+          {"environment", o.environment},
           {"effects", o.effects},
           {"exposureStops", o.exposureStops},
           {"toneMap", o.toneMap}};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/scene_extras.h"
 #include "scene/load.h"
 
 namespace crosslight {
@@ -14,8 +15,11 @@ std::string keyOf(const RenderOptions& o) {
   // Length first: no two lists of words give one key.
   std::string key;
   for (const std::string& word :
-       {o.scene, o.sceneName, o.animation, time, turned, std::string(o.part.empty() ? "" : "hashed")}) {
+       {o.scene, o.sceneName, o.animation, time, turned, std::string(o.part.empty() ? "" : "hashed"), o.environment}) {
     key += fmt::format("{}:{};", word.size(), word);
+  }
+  for (const std::string& pair : o.set) {  // glowing surfaces are lights of the scene
+    if (pair.starts_with("emissive-lights")) key += pair + ";";
   }
   return key;
 }
@@ -26,6 +30,7 @@ int cameraOf(const Scene& scene, const RenderOptions& o) { return o.camera.empty
 
 std::shared_ptr<Scene> loadPosed(const RenderOptions& o) {
   auto scene = std::make_shared<Scene>(loadScene(o.scene, loadOptionsOf(o)));
+  completeScene(*scene, o);
   orbit(*scene, cameraOf(*scene, o), o.turnDegrees);
   return scene;
 }

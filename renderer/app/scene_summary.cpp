@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "scene/shape_mesh.h"
+#include "structs.h"
 
 namespace crosslight {
 namespace {
@@ -60,7 +61,8 @@ std::string cameraLine(const Camera& camera) {
 
 std::string lightLine(const Light& light) {
   if (light.classic) return fmt::format("{}, classic", nameOf(light.type));
-  const char* unit = light.type == LightType::directional ? "lux" : "candela";
+  const bool area = (1u << static_cast<std::uint32_t>(light.type)) & shared::kAreaLightTypes;
+  const char* unit = area ? "nit" : light.type == LightType::directional ? "lux" : "candela";
   return fmt::format("{}, {:g} {}, color {:g} {:g} {:g}", nameOf(light.type), light.intensity, unit, light.color.x,
                      light.color.y, light.color.z);
 }
@@ -95,6 +97,8 @@ Json lightJson(const Light& light) {
   json["intensity"] = light.classic ? Json(nullptr) : Json(light.intensity);
   json["position"] = vectorJson(light.worldPosition);
   json["direction"] = vectorJson(light.worldDirection);
+  if (light.radius > 0) json["radius"] = light.radius;
+  if (light.worldU != glm::dvec3(0.0)) json["axes"] = Json::array({vectorJson(light.worldU), vectorJson(light.worldV)});
   return json;
 }
 
@@ -118,6 +122,11 @@ std::string airLine(const Atmosphere& a) {
   const std::string extent = a.fogMode == FogMode::linear ? fmt::format("from {:g} to {:g}", a.fogStart, a.fogEnd)
                                                           : fmt::format("density {:g} per unit", a.fogDensity);
   return fmt::format("{} fog, {}, color {:g} {:g} {:g}", nameOf(a.fogMode), extent, c.x, c.y, c.z);
+}
+
+Json environmentJson(const Environment& e) {
+  if (e.file.empty()) return nullptr;
+  return {{"file", e.file.string()}, {"intensity", e.intensity}, {"rotationRadians", e.rotation}};
 }
 
 Json fogJson(const Atmosphere& a) {
@@ -172,6 +181,10 @@ std::string sceneTable(const Scene& scene) {
     text += row("bounds", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g}", a.x, a.y, a.z, b.x, b.y, b.z));
   }
   text += row("air", airLine(scene.atmosphere));
+  if (const Environment& e = scene.atmosphere.environment; !e.file.empty()) {
+    text += row("environment", fmt::format("{}, intensity {:g}, turned by {:.4g} degrees",
+                                           printable(e.file.filename().string()), e.intensity, degrees(e.rotation)));
+  }
   text += row("images", fmt::format("{}", scene.images.size()));
   text += row("animations", fmt::format("{}", stats.animations));
   text += row("memory", fmt::format("{:.1f} MiB on the host", static_cast<double>(hostBytesOf(scene)) / (1 << 20)));
@@ -209,6 +222,7 @@ Json sceneJson(const Scene& scene) {
   json["defaultCamera"] = scene.defaultCamera;
   json["defaultLight"] = scene.defaultLight;
   json["fog"] = fogJson(scene.atmosphere);
+  json["environment"] = environmentJson(scene.atmosphere.environment);
   json["cameras"] = json["lights"] = json["materials"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(cameraJson(camera));
   for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));

@@ -1,5 +1,7 @@
 #include "app/set_keys.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -7,7 +9,6 @@
 #include "base/error.h"
 
 namespace crosslight {
-
 const std::vector<SetKey>& setKeys() {
   static const std::vector<std::string> onOff = {"on", "off"};
   static const std::vector<std::string> offOn = {"off", "on"};
@@ -67,12 +68,36 @@ const std::vector<SetKey>& setKeys() {
        "of lights that have no size, for shadow-filter=soft: scene units, of directional lights radians",
        {Method::flat, Method::gouraud, Method::phong},
        nullptr,
-       [](RenderSettings& s, double value) { s.shadowMaps.lightRadius = value; }},
+       {0, 0, 1e30, false, [](RenderSettings& s, double value) { s.shadowMaps.lightRadius = value; }}},
       {"msaa.shading",
        {"pixel", "sample"},
        "with --msaa: light each pixel's fragment once, or every coverage sample where it lies",
        {Method::wireframe, Method::flat, Method::gouraud, Method::phong},
        [](RenderSettings& s, std::size_t value) { s.shadesPerSample = value == 1; }},
+      {"light-samples",
+       {},
+       "shadow rays to each light with an area and into the environment; 0 sends one to the light's middle",
+       {Method::whitted},
+       nullptr,
+       {16, 0, 4096, true,
+        [](RenderSettings& s, double value) { s.lightSamples = static_cast<std::uint32_t>(value); }}},
+      {"emissive-lights",
+       {"off", "on", "auto"},
+       "surfaces that glow light others; auto: where the file has no lights",
+       {},
+       [](RenderSettings& s, std::size_t value) { s.emissiveLights = static_cast<EmissiveLights>(value); }},
+      {"environment-rotation",
+       {},
+       "degrees about +Y, counter-clockwise from above, added to the scene's",
+       {},
+       nullptr,
+       {0, -360, 360, false, [](RenderSettings& s, double value) { s.environmentRotation = value; }}},
+      {"environment-intensity",
+       {},
+       "multiplies the scene's",
+       {},
+       nullptr,
+       {1, 0, 1e6, false, [](RenderSettings& s, double value) { s.environmentIntensity = value; }}},
       {"flat.vertex",
        {"first", "last", "centroid"},
        "where on a triangle flat shading is evaluated",
@@ -109,13 +134,23 @@ const std::vector<SetKey>& setKeys() {
 
 namespace {
 
-double numberOf(const std::string& key, const std::string& text) {
+// "on|off", or "N from 0 to 4096".
+std::string valuesOf(const SetKey& row) {
+  if (!row.values.empty()) return joined(row.values, "|");
+  return fmt::format("N from {:g} to {:g}", row.number.lowest, row.number.highest);
+}
+
+void applyNumber(const SetKey& row, const std::string& text, RenderSettings& settings) {
+  const SetKey::Number& n = row.number;
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = !text.empty() && error == std::errc{} && stop == text.data() + text.size();
-  if (!whole || !(value >= 0) || !std::isfinite(value))
-    throw UsageError("--set " + key + ": '" + text + "' is no number from 0 on, e.g. " + key + "=0.25");
-  return value;
+  const bool fits =
+      error == std::errc{} && stop == text.data() + text.size() && value >= n.lowest && value <= n.highest;
+  if (!fits || (n.whole && value != std::floor(value))) {
+    throw UsageError(fmt::format("--set {}: '{}' is no {}number from {:g} to {:g}", row.key, text,
+                                 n.whole ? "whole " : "", n.lowest, n.highest));
+  }
+  n.apply(settings, value);
 }
 
 }  // namespace
@@ -123,6 +158,7 @@ double numberOf(const std::string& key, const std::string& text) {
 std::vector<std::string> allSetPairs() {
   std::vector<std::string> pairs;
   for (const SetKey& row : setKeys()) {
+    if (row.values.empty()) pairs.push_back(fmt::format("{}={:g}", row.key, row.number.fallback));
     for (const std::string& value : row.values) pairs.push_back(std::string(row.key) + "=" + value);
   }
   return pairs;
@@ -132,8 +168,7 @@ std::string setKeysExplained() {
   std::string text;
   for (const SetKey& row : setKeys()) {
     if (!text.empty()) text += "; ";
-    const std::string values = row.applyNumber != nullptr ? "NUMBER" : joined(row.values, "|");
-    text += std::string(row.key) + "=" + values + " (" + row.meaning + ")";
+    text += std::string(row.key) + "=" + valuesOf(row) + " (" + row.meaning + ")";
   }
   return text;
 }
@@ -146,8 +181,8 @@ const SetKey& applySet(const std::string& pair, RenderSettings& settings) {
     names.push_back(row.key);
     if (key != row.key) continue;
     const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
-    if (row.applyNumber != nullptr) {
-      row.applyNumber(settings, numberOf(key, value));
+    if (row.values.empty()) {
+      applyNumber(row, value, settings);
       return row;
     }
     for (std::size_t i = 0; i < row.values.size(); ++i) {

@@ -1,6 +1,7 @@
 // The table behind `--set key=value`: a row is a key, its values, what it does, where, and how it is applied.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,13 @@ struct SetKey {
   const char* meaning;
   std::vector<Method> methods;  // that heed it; empty: all
   void (*apply)(RenderSettings& settings, std::size_t value);
-  // Of keys without a list of values: any finite number from 0 on.
-  void (*applyNumber)(RenderSettings& settings, double value) = nullptr;
+  // Of a key without `values`: a number within limits.
+  struct Number {
+    double fallback = 0, lowest = 0, highest = 0;
+    bool whole = false;
+    void (*apply)(RenderSettings& settings, double value) = nullptr;
+  };
+  Number number = {};
 };
 
 const std::vector<SetKey>& setKeys();

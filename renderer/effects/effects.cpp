@@ -9,6 +9,7 @@
 
 #include "effects/material_traits.h"
 #include "scene/shape_mesh.h"
+#include "structs.h"
 
 namespace crosslight {
 namespace {
@@ -175,18 +176,41 @@ class Analysis {
       return add(Effect::shadows, "shadows", false,
                  traced_ ? "switched off" : "raster shows no shadows; --set raster-shadows=rays or maps does");
     }
-    const bool lit = !scene_.lights.empty();
+    const bool around = traced_ && scene_.atmosphere.environment.present();
+    const bool lit = !scene_.lights.empty() || around;
     add(Effect::shadows, "shadows", lit,
-        lit ? fmt::format("{} lights cast shadows", scene_.lights.size()) : "the scene has no light");
+        lit ? fmt::format("{} lights {}cast shadows", scene_.lights.size(), around ? "and the environment " : "")
+            : "the scene has no light");
   }
 
   void whatRaysDo() {
     shadows();
+    softShadows();
     for (const MaterialRule& rule : rayRules()) addRayRule(rule);
+  }
+
+  void softShadows() {
+    const auto found = std::find_if(scene_.lights.begin(), scene_.lights.end(), isArea);
+    const bool area = found != scene_.lights.end();
+    const bool around = scene_.atmosphere.environment.present();
+    const bool on = traced_ && settings_.shadows && settings_.lightSamples > 0 && (area || around);
+    const auto index = static_cast<std::size_t>(found - scene_.lights.begin());
+    const std::string who =
+        area ? quoted("light", found->name, index) + " has an area" : "the environment shines from all around";
+    add(Effect::softShadows, "softShadows", on,
+        !traced_                  ? "not simulated by raster methods"
+        : !settings_.shadows      ? "switched off"
+        : !area && !around        ? "no light has an area, and there is no environment"
+        : !settings_.lightSamples ? "switched off: lights with an area cast shadows from their middle"
+                                  : fmt::format("{}, {} rays to it", who, settings_.lightSamples));
   }
 
   void air() {
     const Atmosphere& a = scene_.atmosphere;
+    const bool around = a.environment.present();
+    add(Effect::environment, "environment", around,
+        around ? "the scene is lit by the environment " + a.environment.file.filename().string()
+               : "the scene has no environment");
     add(Effect::fog, "fog", hasFog(a), hasFog(a) ? "the scene has fog: " + describeFog(a) : "the scene has no fog");
   }
 
@@ -214,6 +238,8 @@ bool rasterSendsRays(const Plan& plan, const RenderSettings& settings) {
       settings.method == Method::flat || settings.method == Method::gouraud || settings.method == Method::phong;
   return lightsByRaster && settings.rasterShadows == RasterShadows::rays && plan.has(Effect::shadows);
 }
+
+bool isArea(const Light& light) { return (shared::kAreaLightTypes >> static_cast<std::uint32_t>(light.type)) & 1u; }
 
 Plan makePlan(const Scene& scene, const RenderSettings& settings) { return Analysis(scene, settings).run(); }
 

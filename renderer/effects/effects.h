@@ -33,4 +33,7 @@ bool rasterSendsRays(const Plan& plan, const RenderSettings& settings);
 
 Plan makePlan(const Scene& scene, const RenderSettings& settings);
 
+// It has a surface of its own that radiates.
+bool isArea(const Light& light);
+
 }  // namespace crosslight

@@ -135,6 +135,7 @@ class Raster final : public Technique {
     gpu::GraphicsState s;
     s.vertex = gpu::embeddedShader("background.vert");
     s.fragment = gpu::embeddedShader(backgroundShader(buffers_.wantsCodes()));
+    s.constants = constants(0);
     s.colorFormat = targets_.colorFormat;
     s.samples = settings_.msaa;
     s.depthTest = gpu::DepthTest::equal;
@@ -262,7 +263,7 @@ class Raster final : public Technique {
     if (background_) {
       commands_.bind(background_, set_);
       commands_.cull(gpu::Commands::Cull::none, false);
-      commands_.push(RasterPush{0, 0, 0, 0, 0, buffers_.displayGain});
+      commands_.push(RasterPush{0, strip.firstRow, 0, 0, 0, buffers_.displayGain});
       commands_.draw(3);
     }
     drawCalls(blended_, lists_.blended, 0);

@@ -16,7 +16,7 @@ inline constexpr double kLargestCoordinate = 1e18;
 // gltf_extensions.cpp: the CROSSLIGHT_* family. Each reader is the schema's twin in scenes/schema/.
 void readClassicMaterial(const JsonAt& extension, Material& material);
 ClassicLight readClassicLight(const JsonAt& extension);
-Atmosphere readAtmosphere(const JsonAt& extension);
+Atmosphere readAtmosphere(const JsonAt& extension, const Document& document);
 void checkDisplacement(const JsonAt& extension, std::size_t textureCount);
 struct NodeShape {
   ShapeKind kind = ShapeKind::sphere;
@@ -37,6 +37,11 @@ std::optional<Light> readLight(const Source& source, std::size_t index, const gl
 std::optional<Camera> readCamera(const Source& source, std::size_t index, const glm::dmat4& worldFromNode,
                                  const JsonAt& node);
 Light headlight(const Camera& camera);
+
+// gltf_area_light.cpp: EXT_lights_area, and CROSSLIGHT_lights_area, which makes a sphere of a point light.
+std::optional<Light> readAreaLight(const Source& source, const JsonAt& reference, const glm::dmat4& worldFromNode,
+                                   const JsonAt& node);
+void makeSphere(const JsonAt& extension, const glm::dmat4& worldFromNode, Light& light);
 
 // gltf_animation.cpp: the state of every node at one time.
 struct NodePose {

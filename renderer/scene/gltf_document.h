@@ -80,6 +80,8 @@ void validateAnimations(const Document& document);
 
 // gltf_resources.cpp: fills `buffers` and `images`.
 void loadResources(Document& document);
+// A file that a URI names: below the document's folder and there. InputError else.
+std::filesystem::path fileInFolder(const JsonAt& uri, const Document& document);
 
 // gltf_compression.cpp, gltf_draco.cpp: replace compressed views by plain ones (new buffers, rewritten JSON).
 void decodeMeshopt(Document& document);

@@ -47,6 +47,14 @@ void readFog(const JsonAt& fog, Atmosphere& atmosphere) {
   }
 }
 
+// The picture itself is read by those who draw: no image format is known here.
+void readEnvironmentOf(const JsonAt& at, const Document& document, Atmosphere& atmosphere) {
+  at.onlyKnows({"uri", "intensity", "rotation"});
+  atmosphere.environment.file = fileInFolder(at.at("uri"), document);
+  atmosphere.environment.intensity = numberOr(at, "intensity", 1.0, Range::atLeast(0.0));
+  atmosphere.environment.rotation = numberOr(at, "rotation", 0.0);
+}
+
 ShapeKind kindOf(const JsonAt& kind) {
 #define CL_KIND_ROW(value, name, ...) \
   if (kind.string() == #name) return ShapeKind::name;
@@ -96,12 +104,13 @@ ClassicLight readClassicLight(const JsonAt& extension) {
   return light;
 }
 
-Atmosphere readAtmosphere(const JsonAt& extension) {
-  extension.onlyKnows({"ambient", "background", "fog"});
+Atmosphere readAtmosphere(const JsonAt& extension, const Document& document) {
+  extension.onlyKnows({"ambient", "background", "fog", "environment"});
   Atmosphere atmosphere;
   atmosphere.ambient = vec3Or(extension, "ambient", atmosphere.ambient, Range::atLeast(0.0));
   atmosphere.background = vec3Or(extension, "background", atmosphere.background, Range::atLeast(0.0));
   if (const auto fog = extension.find("fog")) readFog(*fog, atmosphere);
+  if (const auto environment = extension.find("environment")) readEnvironmentOf(*environment, document, atmosphere);
   return atmosphere;
 }
 

@@ -51,11 +51,12 @@ std::optional<Light> readLight(const Source& source, std::size_t index, const gl
   if (const auto range = at.find("range")) light.range = static_cast<float>(range->number(Range::above(0.0)));
   if (light.type == LightType::spot) readSpot(at, light);
   if (const auto classic = at.extension("CROSSLIGHT_lights_classic")) light.classic = readClassicLight(*classic);
+  if (const auto area = at.extension("CROSSLIGHT_lights_area")) makeSphere(*area, worldFromNode, light);
   light.worldPosition = glm::dvec3(worldFromNode[3]);
   const auto direction = unit(-glm::dvec3(worldFromNode[2]));
   if (direction) {
     light.worldDirection = *direction;
-  } else if (light.type != LightType::point) {
+  } else if (light.type != LightType::point && light.type != LightType::areaSphere) {
     node.warn("its scale leaves the light without a direction; the light is left out");
     return std::nullopt;
   }

@@ -136,7 +136,7 @@ void addDefaults(Scene& scene, const Document& document) {
     scene.defaultCamera = true;
     logVerbose(document.fileName + ": has no camera, one frames the scene's bounds");
   }
-  if (scene.lights.empty()) {
+  if (scene.lights.empty() && scene.atmosphere.environment.file.empty()) {
     scene.lights.push_back(headlight(scene.cameras[0]));
     scene.defaultLight = true;
     logInfo(document.fileName + ": has no light, a headlight of pi lux shines along the view of camera 0 '" +
@@ -205,7 +205,7 @@ Scene SceneFile::Impl::pose(Scene scene, double timeSeconds) {
     const auto index = static_cast<std::size_t>(sceneIndex);
     scene.name = model->scenes[index].name;
     const auto atmosphere = document.entry("scenes", index).extension("CROSSLIGHT_scene_atmosphere");
-    if (atmosphere) scene.atmosphere = readAtmosphere(*atmosphere);
+    if (atmosphere) scene.atmosphere = readAtmosphere(*atmosphere, document);
   }
   fillStats(*model, document, scene);
   fillBoundsAndCounts(scene);

@@ -78,13 +78,18 @@ class NodeBuilder {
       }
     }
     if (const auto punctual = at.extension("KHR_lights_punctual")) light(*punctual, node.name, world, at);
+    if (const auto area = at.extension("EXT_lights_area"))
+      addLight(readAreaLight(source_, *area, world, at), node.name);
     drawables(index, node, at, world);
   }
 
   void light(const JsonAt& punctual, const std::string& name, const glm::dmat4& world, const JsonAt& at) {
     const auto lights = source_.document.root().extension("KHR_lights_punctual");
     const std::size_t count = lights ? lights->at("lights").arraySize() : 0;
-    auto light = readLight(source_, punctual.at("light").reference(count, "light"), world, at);
+    addLight(readLight(source_, punctual.at("light").reference(count, "light"), world, at), name);
+  }
+
+  void addLight(std::optional<Light> light, const std::string& name) {
     if (!light) return;
     if (!name.empty()) light->name = name;
     scene_.lights.push_back(std::move(*light));

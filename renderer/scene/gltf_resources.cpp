@@ -94,7 +94,9 @@ bool liesInside(const fs::path& folder, const fs::path& file) {
   return inFolder == folder.end();
 }
 
-fs::path resolved(const JsonAt& at, const Document& document) {
+}  // namespace
+
+fs::path fileInFolder(const JsonAt& at, const Document& document) {
   const std::string& uri = at.string();
   if (uri.empty()) at.fail("is empty");
   if (const std::string_view scheme = schemeOf(uri); !scheme.empty()) {
@@ -113,8 +115,10 @@ fs::path resolved(const JsonAt& at, const Document& document) {
   return full;
 }
 
+namespace {
+
 Bytes externalFile(const JsonAt& at, Document& document) {
-  const fs::path path = resolved(at, document);
+  const fs::path path = fileInFolder(at, document);
   std::error_code error;
   const std::uint64_t size = fs::file_size(path, error);
   if (error) at.fail("its size cannot be read: " + error.message());

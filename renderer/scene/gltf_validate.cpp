@@ -16,23 +16,27 @@ constexpr std::array kTopLevelArrays = {"accessors", "animations", "buffers", "b
                                         "scenes",    "textures",   "skins"};
 
 // Honoured in whole, or with exceptions that the reader names.
-constexpr std::array<std::string_view, 17> kKnownExtensions = {"CROSSLIGHT_lights_classic",
-                                                               "CROSSLIGHT_materials_classic",
-                                                               "CROSSLIGHT_materials_displacement",
-                                                               "CROSSLIGHT_node_shape",
-                                                               "CROSSLIGHT_scene_atmosphere",
-                                                               "EXT_mesh_gpu_instancing",
-                                                               "EXT_meshopt_compression",
-                                                               "KHR_draco_mesh_compression",
-                                                               "KHR_lights_punctual",
-                                                               "KHR_materials_emissive_strength",
-                                                               "KHR_materials_ior",
-                                                               "KHR_materials_pbrSpecularGlossiness",
-                                                               "KHR_materials_transmission",
-                                                               "KHR_materials_unlit",
-                                                               "KHR_materials_volume",
-                                                               "KHR_mesh_quantization",
-                                                               "KHR_texture_transform"};
+constexpr auto kKnownExtensions = std::to_array<std::string_view>({
+    "CROSSLIGHT_lights_area",
+    "CROSSLIGHT_lights_classic",
+    "CROSSLIGHT_materials_classic",
+    "CROSSLIGHT_materials_displacement",
+    "CROSSLIGHT_node_shape",
+    "CROSSLIGHT_scene_atmosphere",
+    "EXT_lights_area",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+});
 
 bool isKnown(std::string_view extension) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) != kKnownExtensions.end();

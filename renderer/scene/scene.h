@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -137,13 +138,17 @@ struct Light {
   std::string name;
   LightType type = LightType::point;
   glm::vec3 color{1.0f};        // linear
-  float intensity = 1.0f;       // candela (point, spot) or lux (directional)
+  float intensity = 1.0f;       // candela (point, spot), lux (directional) or nit, which is radiance (area)
   std::optional<float> range;   // scene units
   float innerConeAngle = 0.0f;  // radians, half angle
   float outerConeAngle = 0.7853982f;
   std::optional<ClassicLight> classic;  // replaces color, intensity, range and the cones
   glm::dvec3 worldPosition{0.0};
-  glm::dvec3 worldDirection{0.0, 0.0, -1.0};  // unit, the way the light travels
+  glm::dvec3 worldDirection{0.0, 0.0, -1.0};  // unit, the way the light travels; area: the middle of it
+  // Area lights. A position is the middle of a rectangle, disk or sphere and the first corner of a triangle.
+  glm::dvec3 worldU{0.0}, worldV{0.0};  // half edges of a rectangle, edges of a triangle; U x V against the direction
+  double radius = 0.0;                  // disk, sphere; scene units
+  bool twoSided = false;
 };
 
 struct Camera {
@@ -159,8 +164,26 @@ struct Camera {
 
 enum class FogMode { none, linear, exp, exp2 };
 
+// Radiance from all directions, linear RGB: rows from +Y down to -Y; the middle of a row looks along -Z, to the right
+// of it lies +X, as a camera without a turn sees them.
+struct EnvironmentMap {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<glm::vec3> radiance;
+};
+
+struct Environment {
+  std::filesystem::path file;  // where the map comes from; empty: none
+  double intensity = 1.0;      // multiplies it
+  double rotation = 0.0;       // radians about +Y, counter-clockwise as seen from above
+  std::shared_ptr<const EnvironmentMap> map;
+
+  bool present() const { return map != nullptr; }
+};
+
 // CROSSLIGHT_scene_atmosphere
 struct Atmosphere {
+  Environment environment;
   glm::vec3 ambient{0.0f};     // Ia
   glm::vec3 background{0.0f};  // linear
   FogMode fogMode = FogMode::none;

@@ -18,6 +18,7 @@ enum class HitQueues { automatic, on, off };            // of hits by what their
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
 enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
+enum class EmissiveLights { off, on, automatic };       // surfaces that glow light others; automatic: without lights
 
 // Of RasterShadows::maps.
 struct ShadowMapSettings {
@@ -52,6 +53,10 @@ struct RenderSettings {
   bool refraction = true;                            // whitted; off: transmitted light goes straight on
   RasterShadows rasterShadows = RasterShadows::off;
   ShadowMapSettings shadowMaps;
+  std::uint32_t lightSamples = 16;  // whitted: rays to a light with an area; 0: one to its middle
+  EmissiveLights emissiveLights = EmissiveLights::off;
+  double environmentRotation = 0.0;   // degrees, added to the scene's
+  double environmentIntensity = 1.0;  // multiplies the scene's
   bool infiniteViewer = false;
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;

@@ -114,6 +114,10 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   if (plan.has(Effect::shapes)) choice.shapes = "shapes.comp";
   if (plan.has(Effect::shadows)) choice.shadow = shadowPackets ? "shadow_packet.comp" : "shadow.comp";
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
+  if (plan.has(Effect::softShadows) && settings.lightSamples > 0) {
+    choice.areaShadow = "shadow_area.comp";
+    choice.environmentShadow = "shadow_environment.comp";
+  }
   if (branches(plan)) {
     choice.gather = "gather.comp";
     if (triangles && settings.maxDepth > 0) choice.secondary = packets ? "intersect_quad.comp" : "intersect.comp";
@@ -190,6 +194,8 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
   const std::uint32_t queued = classes_.classes.empty() ? 0 : kVariantQueue;
   for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.gather}) begin({name});
   begin({choice_.shadow, queued});
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), isArea)) begin({choice_.areaShadow, queued});
+  if (scene.atmosphere.environment.present()) begin({choice_.environmentShadow, queued});
   if (queued != 0) begin({"classify.comp"});
   const std::uint32_t first = settings.aovs.empty() ? 0 : kVariantAovs;
   for (const std::uint32_t variant : {first, 0u}) {

@@ -44,7 +44,8 @@ RayStore::RayStore(const gpu::Device& device, const RayStoreSize& size, const Hi
       rest(wordsOf(device, "groups that packets gave up", kRestGroups + capacity / kRaysPerGroup + 1)),
       queues(wordsOf(device, "hit queues", classes.classes.empty() ? 0 : kHitClasses * (kQueueWords + capacity))),
       hitClasses(gpu::Buffer::of(device, "hit classes", classes.ofMaterial, gpu::useUniformTexel)),
-      visibility(listOf<float>(device, "visibility", size.shadows ? std::uint64_t{capacity} * batch : 1)) {}
+      visibility(listOf<float>(device, "visibility",
+                               size.shadows ? std::uint64_t{capacity} * (batch + (size.environment ? 1 : 0)) : 1)) {}
 
 void RayStore::bind(gpu::BindingSet& set) const {
   set.set(kBindRays, rays);

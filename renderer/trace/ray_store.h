@@ -14,6 +14,7 @@ struct RayStoreSize {
   std::uint32_t lights = 0;
   bool tree = false;      // rays may follow
   bool branches = false;  // nodes are kept
+  bool environment = false;
   bool shadows = false;
 };
 

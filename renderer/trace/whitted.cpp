@@ -47,7 +47,7 @@ class Whitted final : public Technique {
   }
 
   void renderSample(const SampleRequest& request, Tally& tally) override {
-    scene_.setSample(request.offset);
+    scene_.setSample(request.offset, request.index);
     rays_["primary"] += request.pixels;
     const std::uint32_t rays =
         request.tiles ? *request.tiles * kTileSize * kTileSize : cameraRayCount(request.width, request.band.rowCount);
@@ -60,7 +60,7 @@ class Whitted final : public Technique {
 
   // The tree of one camera ray, by its place in the tile order of the band; what is left of it is the recorder's.
   void traceOne(const SampleRequest& request, std::uint32_t place, LevelRecorder& recorder) {
-    scene_.setSample(request.offset);
+    scene_.setSample(request.offset, request.index);
     recorder.bind(store_);
     recorder_ = &recorder;
     Tally unused;
@@ -71,7 +71,8 @@ class Whitted final : public Technique {
   std::uint32_t nodeCapacity() const { return store_.capacity; }
 
   std::string promise() const override {
-    return "E | L[DS_glossy]?S*E: direct light with hard shadows, seen directly or through mirrors and smooth "
+    return "E | L[DS_glossy]?S*E: direct light with its shadows (soft ones by samples), seen directly or through "
+           "mirrors and smooth "
            "dielectrics; no light that reaches a surface by way of another";
   }
 
@@ -90,6 +91,7 @@ class Whitted final : public Technique {
             .lights = scene_.lightCount(),
             .tree = branches_ && settings_.maxDepth > 0,
             .branches = branches_,
+            .environment = scene_.scene().atmosphere.environment.present(),
             .shadows = !choice_.shadow.empty()};
   }
 
@@ -229,10 +231,13 @@ class Whitted final : public Technique {
   void shadeLevel(TracePush push, std::uint32_t variant) {
     if (classes_.empty()) {
       traceShadows(push, 0);
+      traceEnvironment(push, 0);
       dispatch({"shade.comp", variant}, push, "shade");
     }
     for (push.hitClass = 0; push.hitClass < classes_.size(); ++push.hitClass) {
-      if (classes_[push.hitClass].lit) traceShadows(push, kVariantQueue);
+      if (!classes_[push.hitClass].lit) continue;
+      traceShadows(push, kVariantQueue);
+      traceEnvironment(push, kVariantQueue);
     }
     for (push.hitClass = 0; push.hitClass < classes_.size(); ++push.hitClass) {
       dispatch({"shade.comp", variant | kVariantQueue, push.hitClass}, push, "shade");
@@ -241,8 +246,19 @@ class Whitted final : public Technique {
 
   void traceShadows(TracePush push, std::uint32_t variant) {
     for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
-      dispatch({choice_.shadow, variant}, choice_.shadowRest, push, "shadow");
+      const Light& light = scene_.scene().lights[push.firstLight + push.lightInBatch];
+      if (isArea(light) && !choice_.areaShadow.empty())
+        dispatch({choice_.areaShadow, variant}, push, "soft shadow");
+      else
+        dispatch({choice_.shadow, variant}, choice_.shadowRest, push, "shadow");
     }
+  }
+
+  // Into the environment, once: behind the visibilities of the first batch.
+  void traceEnvironment(TracePush push, std::uint32_t variant) {
+    if (push.firstLight > 0 || !scene_.scene().atmosphere.environment.present()) return;
+    push.lightInBatch = push.lightCount;
+    dispatch({choice_.environmentShadow, variant}, push, "soft shadow");
   }
 
   void gather(const std::vector<TracePush>& levels, Tally& tally) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bindings.h"
+#include "upload/environment_tables.h"
 
 namespace crosslight {
 
@@ -59,6 +60,12 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
     materials_ = gpu::Buffer::of(device, "materials", materials.materials, kRecords);
     texels_ = gpu::Buffer::of(device, "textures", materials.texels, gpu::useUniformTexel);
   }
+  {
+    const Environment& around = scene.atmosphere.environment;
+    const std::vector<glm::vec4> none{glm::vec4(0.0f)};
+    environment_ = gpu::Buffer::of(device, "environment", around.present() ? environmentTexels(*around.map) : none,
+                                   gpu::useUniformTexel);
+  }
   positions_ = moved("positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
   attributes_ = moved("vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
   indices_ = moved("indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
@@ -75,8 +82,9 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   }
 }
 
-void GpuScene::setSample(const glm::vec2& sampleOffset) {
+void GpuScene::setSample(const glm::vec2& sampleOffset, std::uint32_t sampleIndex) {
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
+  frame.sampleIndex = sampleIndex;
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
   frame.boundedShapeCount = static_cast<std::uint32_t>(flat_.shapeBounds.size());
   frame.shapeRoot = shapeRoot_;
@@ -106,6 +114,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindShapeTexels, shapes_);
   set.set(kBindShapeBoxes, shapeBoxes_);
   if (triangleBoxes_) set.set(kBindTriangleBoxes, triangleBoxes_);
+  set.set(kBindEnvironment, environment_);
 }
 
 std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots,
@@ -130,7 +139,8 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindLightTexels, texelBufferUint4},
                                      {kBindDrawTexels, texelBufferUint4},
                                      {kBindShapeTexels, texelBufferUint4},
-                                     {kBindShapeBoxes, texelBufferUint4}};
+                                     {kBindShapeBoxes, texelBufferUint4},
+                                     {kBindEnvironment, texelBufferFloat4}};
   for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});
   for (const std::uint32_t slot : moreTexelSlots) bindings.push_back({slot, texelBufferUint4});
   return bindings;

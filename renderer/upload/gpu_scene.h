@@ -24,7 +24,7 @@ class GpuScene {
                                            const RenderSettings& settings, FlatScene flat, FlatBvh bvh);
 
   const FlatScene& flat() const { return flat_; }
-  void setSample(const glm::vec2& sampleOffset);
+  void setSample(const glm::vec2& sampleOffset, std::uint32_t sampleIndex = 0);
   void bind(gpu::BindingSet& set) const;  // slots kBindFrame .. kBindBvhPrimitives
   std::uint32_t lightCount() const { return static_cast<std::uint32_t>(scene_.lights.size()); }
   const Scene& scene() const { return scene_; }
@@ -47,7 +47,7 @@ class GpuScene {
   FlatScene flat_;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,
-      nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
+      environment_, nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
   gpu::BoxSearch triangleBoxes_;  // empty: kernels walk trees
 };
 

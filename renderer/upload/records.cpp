@@ -146,6 +146,10 @@ std::vector<shared::LightRecord> makeLightRecords(const Scene& scene, const glm:
     r.cosInner = std::cos(light.innerConeAngle);
     r.cosOuter = std::cos(light.outerConeAngle);
     if (light.classic) setClassic(light, *light.classic, r);
+    r.areaU = glm::vec3(light.worldU);
+    r.areaV = glm::vec3(light.worldV);
+    r.areaRadius = static_cast<float>(light.radius);
+    if (light.twoSided) r.flags |= shared::kLightTwoSided;
     records.push_back(r);
   }
   return records;
@@ -164,6 +168,15 @@ void setFog(const Atmosphere& a, const RenderSettings& settings, shared::FrameRe
   f.fogScale = finite(linear ? 1.0 / (a.fogEnd - a.fogStart) : a.fogDensity);
   f.fogEnd = finite(a.fogEnd);
   f.fogByDepth = settings.fogDistance == FogDistance::depth ? 1u : 0u;
+}
+
+void setEnvironment(const Environment& around, const RenderSettings& settings, shared::FrameRecord& f) {
+  if (!around.present()) return;
+  constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+  const double turn = around.rotation + settings.environmentRotation * kRadiansPerDegree;
+  f.environmentSize = {around.map->width, around.map->height};
+  f.environmentTurn = {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))};
+  f.environmentGain = static_cast<float>(around.intensity * settings.environmentIntensity);
 }
 
 static_assert(static_cast<std::uint32_t>(FogMode::none) == shared::kFogNone);
@@ -226,6 +239,9 @@ shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& se
   f.lightCount = static_cast<std::uint32_t>(scene.lights.size());
   f.twoSided = settings.twoSided == TwoSided::always ? 1u : 0u;
   f.ambient = scene.atmosphere.ambient;
+  setEnvironment(scene.atmosphere.environment, settings, f);
+  f.sampleSeed = static_cast<std::uint32_t>(settings.seed ^ (settings.seed >> 32));
+  f.lightSamples = settings.lightSamples;
   f.background = seenBackground(scene.atmosphere, settings);
   setFog(scene.atmosphere, settings, f);
   return f;

@@ -13,6 +13,7 @@ struct LightSample {
 #include "light/point.glsl"
 #include "light/directional.glsl"
 #include "light/spot.glsl"
+#include "light/area.glsl"
 
 LightSample sampleLight(LightRecord light, vec3 renderPos) {
   LightSample s = LightSample(vec3(0.0), 0.0, 0.0);

@@ -2,7 +2,10 @@
 // What is seen where nothing is.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
+#include "raster/draw.glsl"
+#include "shade/shade.glsl"
+#include "raster/behind.glsl"
 
 layout(location = 0) out vec4 outColor;
 
-void main() { outColor = vec4(frame.background, 0.0); }
+void main() { outColor = vec4(radianceBehind(directionOfPixel()), 0.0); }

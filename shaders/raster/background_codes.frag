@@ -4,8 +4,10 @@
 #include "shared/scene_bindings.glsl"
 #include "math/numeric.glsl"
 #include "raster/draw.glsl"
+#include "shade/shade.glsl"
+#include "raster/behind.glsl"
 #include "raster/display.glsl"
 
 layout(location = 0) out uint outCodes;
 
-void main() { outCodes = shownCodes(frame.background); }
+void main() { outCodes = shownCodes(radianceBehind(directionOfPixel())); }

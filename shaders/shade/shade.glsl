@@ -5,6 +5,7 @@
 #include "material/surface.glsl"
 #include "light/light.glsl"
 #include "illum/illumination.glsl"
+#include "shade/area_lobe.glsl"
 
 // As CL_MATERIAL in surface.glsl.
 #ifndef CL_LIGHT
@@ -12,6 +13,11 @@
 #endif
 
 float lightVisibility(uint lightIndex);
+
+// How much of the environment arrives; the argument is the number of lights in the batch.
+#ifndef CL_ENVIRONMENT_VISIBILITY
+#define CL_ENVIRONMENT_VISIBILITY(lightCount) 1.0
+#endif
 
 // What all lights of a batch bring to a point, before the surface's colors.
 struct LightSums {
@@ -28,19 +34,37 @@ struct ShadedParts {
   vec3 emission;
 };
 
+#include "shade/environment.glsl"
+
+// One light whose falloff is 1.
+LightSums lobeSums(LightRecord light, Lobe lobe) {
+  return LightSums(vec3(0.0), light.diffuse * lobe.diffuse, light.specular * lobe.specular, light.specular * lobe.fresnel);
+}
+
+void addEnvironment(SurfacePoint s, vec3 wo, float visible, inout LightSums sums) {
+  LightSums all = environmentSums(s, wo);
+  sums.diffuse += visible * all.diffuse;
+  sums.specular += visible * all.specular;
+  sums.fresnel += visible * all.fresnel;
+}
+
 LightSums illuminate(SurfacePoint s, vec3 wo, uint firstLight, uint lightCount) {
   LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-  if (specLights == 0u) return sums;
+  if (specLights == 0u && !CL_HAS(environment)) return sums;
   for (uint i = 0u; i < lightCount; ++i) {
     LightRecord light = CL_LIGHT(firstLight + i);
     LightSample at = sampleLight(light, s.position);
     float visible = lightVisibility(i) * at.falloff;
     Lobe lobe = evaluateModel(s, wo, at.wi);
+    if (isAreaLight(light)) lobe = areaLobe(s, wo, faceOf(light, s.position));
     sums.ambient += light.ambient * at.falloff;
     sums.diffuse += light.diffuse * (visible * lobe.diffuse);
     sums.specular += light.specular * (visible * lobe.specular);
     sums.fresnel += light.specular * (visible * lobe.fresnel);
   }
+#ifndef CL_LIGHTS_ONLY
+  if (hasEnvironment() && firstLight == 0u) addEnvironment(s, wo, CL_ENVIRONMENT_VISIBILITY(lightCount), sums);
+#endif
   return sums;
 }
 

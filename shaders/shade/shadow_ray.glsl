@@ -17,8 +17,8 @@ struct ShadowRay {
 ShadowRay shadowRay(vec3 position, vec3 error, vec3 ng, uint slot, LightRecord light) {
   LightSample at = sampleLight(light, position);
   vec3 origin = leavePoint(position, error, ng, at.wi);
-  bool directional = light.type == 1u;
-  vec3 toLight = directional ? at.wi : light.renderPosition - origin;
+  bool directional = light.type == kLightType_directional;
+  vec3 toLight = directional ? at.wi : middleOf(light) - origin;
   return ShadowRay(Ray(origin, toLight, 0.0, directional ? kLargest : kShadowEnd, slot),
                    at.falloff > 0.0 && dot(at.wi, at.wi) > 0.0);
 }

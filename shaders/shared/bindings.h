@@ -22,7 +22,9 @@
   X(13, shapes)                  \
   X(14, triangles)               \
   X(15, turnedShapes)            \
-  X(16, fog)
+  X(16, fog)                     \
+  X(18, environment)             \
+  X(19, softShadows)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
@@ -65,6 +67,7 @@ CL_CONST uint kBindTileList = 72;       // uint texels: tiles of the band that g
 CL_CONST uint kBindActiveTiles = 73;    // uint[tiles of the band]: 1 where the tile is in that list
 CL_CONST uint kBindTileErrors = 74;     // float[tiles of the band]
 CL_CONST uint kBindMoments = 75;        // PixelMoments[pixels of the band]
+CL_CONST uint kBindEnvironment = 55;    // texel buffer, RGBA32F: see shaders/shade/environment.glsl
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 

@@ -13,10 +13,14 @@
   X(4, cookTorrance, CookTorrance, "glTF metallic-roughness: GGX, height-correlated Smith, Schlick")
 
 // X(value, name, GLSL stem, what it is)
-#define CL_LIGHT_TYPES(X)                                          \
-  X(0, point, Point, "a position that radiates in all directions") \
-  X(1, directional, Directional, "parallel rays from infinity")    \
-  X(2, spot, Spot, "a position that radiates into a cone")
+#define CL_LIGHT_TYPES(X)                                                         \
+  X(0, point, Point, "a position that radiates in all directions")                \
+  X(1, directional, Directional, "parallel rays from infinity")                   \
+  X(2, spot, Spot, "a position that radiates into a cone")                        \
+  X(3, areaRectangle, AreaRectangle, "a parallelogram that radiates to one side") \
+  X(4, areaDisk, AreaDisk, "a disk that radiates to one side")                    \
+  X(5, areaSphere, AreaSphere, "a sphere that radiates outwards")                 \
+  X(6, areaTriangle, AreaTriangle, "a triangle of a surface that glows")
 
 // X(value, name, GLSL stem, what it is). Object space; ShapeRecord in structs.h has the parameters.
 #define CL_SHAPE_KINDS(X)                                                              \

@@ -22,7 +22,7 @@ CL_CONST uint kShadowsByMaps = 1u;
 CL_CONST uint kShadowsByRays = 2u;
 
 // As many as fit into the 16 KiB that every device allows for a uniform block.
-CL_CONST uint kFewLights = 170;
+CL_CONST uint kFewLights = 128;
 CL_CONST uint kManyLights = 0xffffffffu;
 
 CL_CONST uint kVaryingPosition = 1u;

@@ -13,12 +13,18 @@ DrawRecord drawOf(uint draw) {
 }
 
 LightRecord lightOf(uint light) {
-  int at = int(6u * light);
+  int at = int(8u * light);
   uvec4 a = texelFetch(lightTexels, at), b = texelFetch(lightTexels, at + 1), c = texelFetch(lightTexels, at + 2);
   uvec4 d = texelFetch(lightTexels, at + 3), e = texelFetch(lightTexels, at + 4), f = texelFetch(lightTexels, at + 5);
+  uvec4 g = uvec4(0u), h = uvec4(0u);
+  if (kHasAreaLights) {
+    g = texelFetch(lightTexels, at + 6);
+    h = texelFetch(lightTexels, at + 7);
+  }
   return LightRecord(a.x, a.y, asVec3(a.z, a.w, b.x), asVec3(b.y, b.z, b.w), asVec3(c.x, c.y, c.z),
                      asVec3(c.w, d.x, d.y), asVec3(d.z, d.w, e.x), asVec3(e.y, e.z, e.w), uintBitsToFloat(f.x),
-                     uintBitsToFloat(f.y), uintBitsToFloat(f.z), uintBitsToFloat(f.w));
+                     uintBitsToFloat(f.y), uintBitsToFloat(f.z), uintBitsToFloat(f.w), asVec3(g.x, g.y, g.z),
+                     asVec3(g.w, h.x, h.y), uintBitsToFloat(h.z), h.w);
 }
 
 ShapeRecord shapeOf(uint shape) {

@@ -18,6 +18,10 @@ CL_EFFECTS(CL_EFFECT_ROW)
 #define CL_MODEL_ROW(value, name, Stem, text) const uint kModel_##name = uint(value);
 CL_ILLUMINATION_MODELS(CL_MODEL_ROW)
 #undef CL_MODEL_ROW
+#define CL_LIGHT_ROW(value, name, Stem, text) const uint kLightType_##name = uint(value);
+CL_LIGHT_TYPES(CL_LIGHT_ROW)
+#undef CL_LIGHT_ROW
+const bool kHasAreaLights = (specLights & kAreaLightTypes) != 0u;
 #define CL_HAS(name) ((specEffects & kEffect_##name) != 0u)
 
 layout(set = 0, binding = kBindFrame, scalar) uniform FrameBlock { FrameRecord frame; };

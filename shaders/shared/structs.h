@@ -92,12 +92,12 @@ CL_CONST uint kMaterialThin = 32u;    // no volume: the transmitted ray goes str
 CL_CONST uint kMaterialVolume = 64u;  // KHR_materials_volume is present
 
 // One light. Classic lights keep separate ambient, diffuse and specular intensities; glTF lights put the same
-// candela (point, spot) or lux (directional) into diffuse and specular and nothing into ambient.
+// candela (point, spot), lux (directional) or radiance (area) into diffuse and specular and nothing into ambient.
 struct LightRecord {
   uint type;            // CL_LIGHT_TYPES
   uint flags;           // kLight*
-  vec3 renderPosition;  // point, spot
-  vec3 direction;       // unit, the way the light travels: directional, spot
+  vec3 renderPosition;  // point, spot; center of a rectangle, disk or sphere; first corner of a triangle
+  vec3 direction;       // unit, the way the light travels: directional, spot; area: the middle of it
   vec3 ambient;
   vec3 diffuse;
   vec3 specular;
@@ -106,9 +106,15 @@ struct LightRecord {
   float cosInner;      // spot
   float cosOuter;      // spot: beyond it nothing
   float spotExponent;  // classic spot: max(-L.D, 0)^exponent
+  vec3 areaU;          // half edge of a rectangle, edge of a triangle; areaU x areaV points against `direction`
+  vec3 areaV;
+  float areaRadius;  // disk, sphere
+  uint unused;
 };
-CL_SIZE(LightRecord, 96)
-CL_CONST uint kLightClassic = 1u;  // attenuation and exponent as OpenGL has them; else inverse square and smooth cone
+CL_SIZE(LightRecord, 128)
+CL_CONST uint kAreaLightTypes = 0x78u;  // bits of CL_LIGHT_TYPES: diffuse and specular are radiance, without falloff
+CL_CONST uint kLightClassic = 1u;   // attenuation and exponent as OpenGL has them; else inverse square and smooth cone
+CL_CONST uint kLightTwoSided = 2u;  // rectangle, disk, triangle: radiates to both sides
 
 // A shape of the ray tracer; object space as in CL_SHAPE_KINDS.
 struct ShapeRecord {
@@ -145,12 +151,18 @@ struct FrameRecord {
   vec3 ambient;              // Ia
   vec3 background;           // covered by the fog where that reaches it
   vec3 fogColor;
-  uint fogMode;     // kFog*
-  float fogScale;   // exp, exp2: density per scene unit; linear: 1 / (end - start)
-  float fogEnd;     // linear: distance from which on nothing else is seen
-  uint fogByDepth;  // 1: by the distance along cameraForward, as OpenGL has it; 0: along the ray
+  uint fogMode;           // kFog*
+  float fogScale;         // exp, exp2: density per scene unit; linear: 1 / (end - start)
+  float fogEnd;           // linear: distance from which on nothing else is seen
+  uint fogByDepth;        // 1: by the distance along cameraForward, as OpenGL has it; 0: along the ray
+  uint sampleIndex;       // of the picture's samples
+  uint sampleSeed;        // of all random numbers
+  uint lightSamples;      // shadow rays to a light with an area, and into the environment
+  uvec2 environmentSize;  // texels of the map
+  vec2 environmentTurn;   // cosine and sine of its rotation about +Y
+  float environmentGain;  // radiance of a texel of 1
 };
-CL_SIZE(FrameRecord, 216)
+CL_SIZE(FrameRecord, 248)
 CL_CONST uint kFogNone = 0u;
 CL_CONST uint kFogLinear = 1u;
 CL_CONST uint kFogExp = 2u;

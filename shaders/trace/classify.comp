@@ -56,7 +56,7 @@ void main() {
     HitRecord hit = hitOf(node);
     uint pixel = pushed.firstNode == 0u ? pixelOf(cameraPlace(ray)) : 0u;
     bool missed = hit.primitive == kNoHit;
-    if (there && missed && pixel != kNoPixel) storeMiss(node, pixel);
+    if (there && missed && pixel != kNoPixel) storeMiss(node, pixel, rayOfNode(node, cameraPlace(ray)).direction);
     classes[k] = there && !missed ? classOf(hit) : kHitClasses;
     wanted += countFor(classes[k]);
   }

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #include "shared/ray_tree_records.h"
+#define CL_LIGHTS_ONLY  // the environment is none of the lights that are listed
 #include "trace/tree.glsl"
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"

@@ -38,14 +38,14 @@ void storeNode(uint index, RayRecord ray, Shaded shaded) {
   if (CL_HAS(absorption) && ray.kind != kRayPrimary) nodes[index].weight *= shaded.weightScale;
 }
 
-// The background, once.
-void storeMiss(uint index, uint pixel) {
+// The background, once; `direction` is that of the ray, of any length.
+void storeMiss(uint index, uint pixel, vec3 direction) {
   if (inLaterBatch()) return;
   if (!kBranches) {
-    samples[pixel] = vec4(frame.background, 0.0);
+    samples[pixel] = vec4(radianceBehind(direction), 0.0);
     return;
   }
-  nodes[index].value = frame.background;
+  nodes[index].value = radianceBehind(direction);
   nodes[index].alpha = 0.0;
   nodes[index].reflected = nodes[index].transmitted = kNoRayNode;
 }

@@ -6,11 +6,13 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/scene_bindings.glsl"
+#define CL_ENVIRONMENT_VISIBILITY(lightCount) lightVisibility(lightCount)  // it stands behind those of the lights
 #include "trace/tree.glsl"
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"
 #include "trace/camera.glsl"
 #include "trace/optics.glsl"
+#include "trace/viewer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[]; };
@@ -26,13 +28,8 @@ uint shaded_;  // ray of the level that this lane shades
 
 float lightVisibility(uint lightIndex) {
   if (!CL_HAS(shadows)) return 1.0;
+  if (CL_HAS(environment) && lightIndex >= pushed.lightCount && frame.lightSamples == 0u) return 1.0;
   return visibilities[lightIndex * pushed.nodeCount + shaded_];
-}
-
-// The viewer of a secondary ray is where it comes from; primary rays share the camera's rule with the rasteriser.
-vec3 towardsViewer(RayRecord ray, vec3 renderPos) {
-  bool camera = !kBranches || ray.kind == kRayPrimary;
-  return camera ? viewDirection(renderPos) : -safeNormalize(ray.direction, vec3(0.0));
 }
 
 void recordAov(uint pixel, HitSurface h, SurfacePoint s, ShadedParts parts, bool firstBatch) {
@@ -74,6 +71,7 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   bool firstBatch = !kManyLights || pushed.firstLight == 0u;
   HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
   SurfacePoint s = surfaceAt(h.at);
+  environmentMirrored_ = CL_HAS(reflection) && ray.depth < pushed.maxDepth && (materialOf(h.at.materialId).flags & kMaterialMirror) != 0u;
   LightSums sums = illuminate(s, towardsViewer(ray, s.position), pushed.firstLight, pushed.lightCount);
   // Inside a refracting body no light arrives but along the rays that the tree follows.
   bool interior = isInterior(h);
@@ -108,7 +106,7 @@ void main() {
   if (ray.kind == kRayPrimary && pixel == kNoPixel) return;
   HitRecord hit = hitOf(index);
   if ((specVariant & kVariantQueue) == 0u && hit.primitive == kNoHit) {  // queues hold hits alone
-    storeMiss(index, pixel);
+    storeMiss(index, pixel, ray.direction);
     return;
   }
   shaded_ = at;

@@ -7,7 +7,7 @@
 #include "trace/hit_surface.glsl"
 #include "shade/shadow_ray.glsl"
 #include "trace/camera.glsl"
-#include "accel/few_shapes.glsl"
+#include "trace/light_passed.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -22,13 +22,6 @@ ShadowRay shadowRayOf(uint ray) {
   HitSurface s = surfaceOfHit(hit, rayOf(rayOfNode(node, cameraPlace(ray))), false);
   return shadowRay(s.at.renderPos, s.positionError, s.at.geometricNormal, s.slot,
                    lightOf(pushed.firstLight + pushed.lightInBatch));
-}
-
-float lightPassed(Ray ray, uint shapes) {
-  float passed = 1.0;
-  if (CL_HAS(triangles)) passed = lightPassedTriangles(ray);
-  if (!CL_HAS(shapes)) return passed;
-  return kFewShapes ? lightPassedShapes(ray, passed, shapes) : lightPassedShapesByTree(ray, passed);
 }
 
 void main() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/render_job.h"
+#include "app/scene_extras.h"
 #include "image/image.h"
 #include "scene/load.h"
 
@@ -27,7 +28,11 @@ inline gpu::Device& device() {
 }
 
 inline std::filesystem::path scenesFolder() { return std::filesystem::path(CROSSLIGHT_SOURCE_DIR) / "scenes"; }
-inline Scene sceneNamed(const std::string& name) { return loadScene(scenesFolder() / (name + ".gltf")); }
+inline Scene sceneNamed(const std::string& name) {
+  Scene scene = loadScene(scenesFolder() / (name + ".gltf"));
+  completeScene(scene);
+  return scene;
+}
 
 // Every scene file of the project, sorted by path relative to scenes/ and without its extension.
 inline std::vector<std::string> allSceneNames() {

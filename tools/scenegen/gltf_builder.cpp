@@ -65,8 +65,8 @@ int GltfBuilder::addRoot(Json node) {
   return index;
 }
 
-int GltfBuilder::addLight(Json light) {
-  Json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
+int GltfBuilder::addLight(Json light, const char* extension) {
+  Json& lights = root_["extensions"][extension]["lights"];
   lights.push_back(std::move(light));
   return indexOf(lights.size());
 }
@@ -148,6 +148,10 @@ int GltfBuilder::addMesh(const std::string& name, const std::vector<std::pair<Js
   return append("meshes", std::move(mesh));
 }
 
+void GltfBuilder::addFile(const std::string& name, std::vector<std::byte> bytes) {
+  files_.emplace_back(name, std::move(bytes));
+}
+
 void GltfBuilder::write(const std::filesystem::path& folder, const std::string& name) {
   std::set<std::string> names;
   collectExtensions(root_, names);
@@ -160,6 +164,7 @@ void GltfBuilder::write(const std::filesystem::path& folder, const std::string& 
   std::filesystem::create_directories(folder);
   writeFileAtomically(folder / (name + ".bin"), buffer_);
   writeFileAtomically(folder / (name + ".gltf"), toText(written));
+  for (const auto& [file, bytes] : files_) writeFileAtomically(folder / file, bytes);
 }
 
 }  // namespace crosslight::scenegen

@@ -21,7 +21,7 @@ class GltfBuilder {
   void beginScene(const std::string& title);
 
   int addMaterial(Json material);
-  int addLight(Json light);  // of KHR_lights_punctual
+  int addLight(Json light, const char* extension = "KHR_lights_punctual");
   int addTexture(const std::string& name, const std::vector<std::byte>& png, Json sampler);
 
   // Accessors for the mesh; the answer is a glTF primitive without a material. With `flatNormals` no NORMAL is written,
@@ -36,7 +36,9 @@ class GltfBuilder {
 
   void setAtmosphere(Json atmosphere);  // CROSSLIGHT_scene_atmosphere of the current scene
 
-  // NAME.gltf and NAME.bin in the folder. Only the extensions that are used are listed.
+  void addFile(const std::string& name, std::vector<std::byte> bytes);  // beside the asset
+
+  // NAME.gltf and NAME.bin in the folder, and what was added. Only the extensions that are used are listed.
   void write(const std::filesystem::path& folder, const std::string& name);
 
  private:
@@ -48,6 +50,7 @@ class GltfBuilder {
 
   Json root_;
   std::vector<std::byte> buffer_;
+  std::vector<std::pair<std::string, std::vector<std::byte>>> files_;
 };
 
 }  // namespace crosslight::scenegen

@@ -54,6 +54,14 @@ const std::vector<Carrier>& carriers() {
         {"ambient", {1, 2, 3}},
         {"diffuse", {1, 2, 3}},
         {"specular", {1, 2, 3}}}},
+      {"CROSSLIGHT_lights_area",
+       "/extensions/KHR_lights_punctual/lights/0/extensions/CROSSLIGHT_lights_area",
+       [=](const Json& e) {
+         const Json light = {{"type", "point"}, {"extensions", {{"CROSSLIGHT_lights_area", e}}}};
+         return file({{"extensions", {{"KHR_lights_punctual", {{"lights", {light}}}}}},
+                      {"nodes", {{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}}}});
+       },
+       {{"radius", 2}}},
       {"CROSSLIGHT_scene_atmosphere",
        "/scenes/0/extensions/CROSSLIGHT_scene_atmosphere",
        [=](const Json& e) {
@@ -61,7 +69,8 @@ const std::vector<Carrier>& carriers() {
        },
        {{"ambient", {1, 2, 3}},
         {"background", {1, 2, 3}},
-        {"fog", {{"mode", "exp"}, {"color", {1, 2, 3}}, {"start", 1}, {"end", 2}, {"density", 3}}}}},
+        {"fog", {{"mode", "exp"}, {"color", {1, 2, 3}}, {"start", 1}, {"end", 2}, {"density", 3}}},
+        {"environment", {{"uri", "sky.hdr"}, {"intensity", 2}, {"rotation", -1}}}}},
       {"CROSSLIGHT_node_shape",
        "/nodes/0/extensions/CROSSLIGHT_node_shape",
        [=](const Json& e) {
@@ -83,6 +92,7 @@ class Schema : public testing::TestWithParam<std::size_t> {
   const Carrier& carrier() const { return carriers()[GetParam()]; }
 
   std::string refusalOf(const Json& extension) {
+    folder_.write("sky.hdr", "whoever draws reads it");
     try {
       loadScene(folder_.write("scene.gltf", carrier().put(extension).dump()));
     } catch (const InputError& error) {
@@ -193,7 +203,7 @@ TEST_P(Schema, NamesAndLimitsAreThoseOfTheReader) {
   object(schema, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryExtension, Schema, testing::Range<std::size_t>(0, 5),
+INSTANTIATE_TEST_SUITE_P(EveryExtension, Schema, testing::Range<std::size_t>(0, carriers().size()),
                          [](const auto& i) { return carriers()[i.param].extension; });
 
 TEST(NodeShape, TheSchemaListsEveryKindWithTheLengthsThatItNeeds) {

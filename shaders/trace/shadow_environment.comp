@@ -1,0 +1,54 @@
+#version 460
+// How much of the environment's light reaches each hit of one level: rays in directions chosen by luminance and by
+// cosine. A ratio as in shadow_area.comp; what it multiplies is what the convolved maps say.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/scene_bindings.glsl"
+#include "math/random.glsl"
+#include "trace/tree.glsl"
+#include "trace/hit_surface.glsl"
+#include "shade/shadow_ray.glsl"
+#include "shade/environment_sample.glsl"
+#include "trace/camera.glsl"
+#include "trace/light_passed.glsl"
+#include "trace/viewer.glsl"
+#include "trace/light_samples.glsl"
+
+layout(local_size_x = 64) in;
+
+float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded here
+
+// Every lane takes every step, those with nothing to find out with rays that have ended: few_shapes.glsl shares loads.
+float visibleShare(uint ray, bool inLevel, out uint traced) {
+  traced = 0u;
+  SampledPoint p = sampledPoint(ray);
+  uint scramble = scrambleOf(p, kEnvironmentLight);
+  bool asks = inLevel && p.hit;
+  float all = 0.0, passed = 0.0;
+  for (uint k = 0u; k < frame.lightSamples; ++k) {
+    uint index = frame.sampleIndex * frame.lightSamples + k;
+    EnvironmentSample at = sampleEnvironment(owenSobol(index / 2u, hashOf(scramble, index & 1u)), p.s.n, (index & 1u) != 0u);
+    LightRecord light = blackLight();
+    light.diffuse = light.specular = at.radiance / at.pdfSolidAngle;
+    float brings = unshadowed(p.s, p.wo, at.wi, light);
+    bool counts = asks && brings > 0.0 && at.pdfSolidAngle > 0.0;
+    vec3 origin = leavePoint(p.h.at.renderPos, p.h.positionError, p.h.at.geometricNormal, at.wi);
+    Ray to = Ray(origin, at.wi, 0.0, counts ? kLargest : -1.0, p.h.slot);
+    uint shapes = kFewShapes && CL_HAS(shapes) ? shapesAhead(to) : 0u;
+    float seen = lightPassed(to, shapes);
+    all += counts ? brings : 0.0;
+    passed += counts ? brings * seen : 0.0;
+    traced += counts ? 1u : 0u;
+  }
+  return all > 0.0 ? passed / all : 1.0;
+}
+
+void main() {
+  uint ray = rayOfInvocation();
+  bool inLevel = ray != kNoRay;
+  uint traced;
+  float visible = visibleShare(inLevel ? ray : 0u, inLevel, traced);
+  if (inLevel) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = visible;
+  uint count = subgroupAdd(traced);
+  if (subgroupElect() && count > 0u) atomicAdd(counters[kCounterShadowRays], count);
+}
