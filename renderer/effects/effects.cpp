@@ -198,7 +198,7 @@ class Analysis {
     const std::string who =
         area ? quoted("light", found->name, index) + " has an area" : "the environment shines from all around";
     add(Effect::softShadows, "softShadows", on,
-        !traced_                  ? "not simulated by raster methods"
+        !traced_                  ? "raster methods cast shadows from a light's middle"
         : !settings_.shadows      ? "switched off"
         : !area && !around        ? "no light has an area, and there is no environment"
         : !settings_.lightSamples ? "switched off: lights with an area cast shadows from their middle"

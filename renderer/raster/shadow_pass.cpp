@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effects.h"
+
 namespace crosslight {
 
 using namespace shared;
@@ -62,7 +64,10 @@ gpu::Constants ShadowPass::constants() const { return {{kSpecRasterShadows, mode
 std::string ShadowPass::promise() const {
   if (mode_ == kShadowsOff) return "without shadows";
   const std::string where = lightsVertices_ ? " where light is evaluated, at vertices" : "";
-  return (mode_ == kShadowsByRays ? "with hard shadows" : "with shadows from depth maps") + where;
+  const auto& lights = scene_.scene().lights;
+  const bool area = std::any_of(lights.begin(), lights.end(), isArea);
+  const std::string from = area ? " from the middle of each light with an area" : "";
+  return (mode_ == kShadowsByRays ? "with hard shadows" : "with shadows from depth maps") + from + where;
 }
 
 void ShadowPass::make(const gpu::Device& device, const gpu::BindingLayout& layout, const gpu::Constants& shared) {

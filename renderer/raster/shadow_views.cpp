@@ -38,6 +38,29 @@ std::array<dvec3, 8> cornersOf(const dvec3& lower, const dvec3& upper) {
   return corners;
 }
 
+// Where rays to a light with an area end: middleOf() of shaders/light/area.glsl.
+dvec3 middleOf(const Light& light) {
+  const dvec3 fromCorner = light.type == LightType::areaTriangle ? (light.worldU + light.worldV) / 3.0 : dvec3(0.0);
+  return light.worldPosition + fromCorner;
+}
+
+// Half the side of the square that a light is taken for, scene units; rectangles and triangles have its area.
+double halfSizeOf(const Light& light, double otherwise) {
+  const double parallelogram =
+      glm::length(glm::cross(light.worldU, light.worldV));  // of half edges; of a triangle's edges
+  switch (light.type) {
+    case LightType::areaRectangle:
+      return std::sqrt(parallelogram);
+    case LightType::areaTriangle:
+      return std::sqrt(parallelogram / 8.0);
+    case LightType::areaDisk:
+    case LightType::areaSphere:
+      return light.radius;
+    default:
+      return otherwise;
+  }
+}
+
 struct Rectangle {
   dvec2 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
 
@@ -92,7 +115,7 @@ class Planner {
 
   void add(const Light& light) {
     ShadowLight record{kShadowNone, static_cast<std::uint32_t>(result_.views.size()), 0,
-                       static_cast<float>(maps_.lightRadius)};
+                       static_cast<float>(halfSizeOf(light, maps_.lightRadius))};
     if (light.type == LightType::directional) {
       record.kind = kShadowCascades;
       addCascades(light);
@@ -109,7 +132,7 @@ class Planner {
   }
 
   void addPerspective(const Light& light, ShadowLight& record) {
-    const dvec3 origin = light.worldPosition - origin_;
+    const dvec3 origin = middleOf(light) - origin_;
     double farthest = 0;
     for (const dvec3& corner : corners_) farthest = std::max(farthest, glm::length(corner - origin));
     const bool cube = halfAngle(light) > kWidestSpot;

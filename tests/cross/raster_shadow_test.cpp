@@ -22,6 +22,7 @@ RenderSettings settingsOf(Method method, bool shadows) {
   s.shadows = shadows;
   s.rasterShadows = shadows ? RasterShadows::rays : RasterShadows::off;
   s.aovs = {"instanceId", "primitiveId", "materialId", "albedo"};
+  s.lightSamples = 0;  // rays to the middle of a light with an area, as in raster
   return s;
 }
 

@@ -233,12 +233,26 @@ TEST(ShadowMaps, aRoomHasNoSeams) {
   }
 }
 
+// Lamps whose half width is r: a point's size is a setting, others have their own.
+Light lampOfSize(LightType type, double r, const glm::dvec3& position) {
+  Light lamp = lampOf(type, position);
+  if (type == LightType::spot) return lamp;
+  lamp.classic.reset();
+  lamp.worldDirection = {0.0, -1.0, 0.0};
+  lamp.worldU = {r, 0.0, 0.0};
+  lamp.worldV = {0.0, 0.0, -r};
+  lamp.radius = r;
+  return lamp;
+}
+
+class Penumbra : public ::testing::TestWithParam<LightType> {};
+
 // Soft shadows: the penumbra of a half plane's edge at height b below a lamp at height a is 2 r b / (a - b) wide.
-TEST(ShadowMaps, penumbrasAreAsWideAsTheLightIsLarge) {
+TEST_P(Penumbra, isAsWideAsTheLightIsLarge) {
   const double a = 8.0, b = 2.0, r = 0.4;
   Scene scene = sceneOf({quad({0, 0, 0}, {4, 0, 0}, {0, 0, -4}), quad({-2.5f, float(b), 0}, {2.5f, 0, 0}, {0, 0, -4})},
                         {0, 7, 0.01});
-  scene.lights = {lampOf(LightType::spot, {0, a, 0})};
+  scene.lights = {lampOfSize(GetParam(), r, {0, a, 0})};
   scene.cameras[0].worldFromCamera = glm::dmat4(glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0}));
   scene.cameras[0].worldFromCamera[3] = {0.3, 1.5, 0.0, 1.0};
   scene.cameras[0].zNear = 0.01;
@@ -246,7 +260,7 @@ TEST(ShadowMaps, penumbrasAreAsWideAsTheLightIsLarge) {
   // The sheet's edge at x = 0 throws the shadow's edge to x = 0; the camera looks down from below the sheet.
   RenderSettings s = mapSettings(3, 1024);
   s.shadowMaps.soft = true;
-  s.shadowMaps.lightRadius = r;
+  s.shadowMaps.lightRadius = GetParam() == LightType::spot ? r : 0.0;
   s.aovs = {"position"};
   const Image soft = render(device(), scene, s).image;
   s.rasterShadows = RasterShadows::off;
@@ -263,6 +277,10 @@ TEST(ShadowMaps, penumbrasAreAsWideAsTheLightIsLarge) {
   const double width = 2 * r * b / (a - b);
   EXPECT_NEAR(last - first, 0.9 * width, 0.2 * width) << "from " << first << " to " << last;
 }
+
+INSTANTIATE_TEST_SUITE_P(Lamps, Penumbra,
+                         ::testing::Values(LightType::spot, LightType::areaRectangle, LightType::areaDisk,
+                                           LightType::areaSphere));
 
 }  // namespace
 }  // namespace crosslight::testing
