@@ -15,6 +15,7 @@ enum class Sampler { sobol, regular, jittered };           // where samples lie 
 enum class KernelFamily { automatic, perLane, packet, rayQuery };
 enum class InstanceMode { automatic, flatten, share };  // trees of instances (rays): same hits
 enum class HitQueues { automatic, on, off };            // of hits by what their surfaces ask for: same image
+enum class DepthPrepass { automatic, on, off };         // phong: same image, other speed
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
 enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
@@ -48,9 +49,10 @@ struct RenderSettings {
   KernelFamily kernel = KernelFamily::automatic;     // rays only
   InstanceMode instances = InstanceMode::automatic;  // rays only
   HitQueues hitQueues = HitQueues::automatic;        // rays only
-  bool shadows = true;                               // whitted
-  bool reflection = true;                            // whitted
-  bool refraction = true;                            // whitted; off: transmitted light goes straight on
+  DepthPrepass depthPrepass = DepthPrepass::automatic;
+  bool shadows = true;     // whitted
+  bool reflection = true;  // whitted
+  bool refraction = true;  // whitted; off: transmitted light goes straight on
   RasterShadows rasterShadows = RasterShadows::off;
   ShadowMapSettings shadowMaps;
   std::uint32_t lightSamples = 16;  // whitted: rays to a light with an area; 0: one to its middle
