@@ -159,6 +159,25 @@ SceneBytes sceneBytes(const RenderRequest& request, std::uint64_t trianglesSaved
 
 }  // namespace
 
+void checkLists(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved) {
+  constexpr std::uint64_t kTexelBytes = 16;
+  const SceneStats& stats = request.scene->stats;
+  const bool traced = isTraced(request.settings.method);
+  const std::uint64_t inTrees = traced ? stats.triangles - std::min(stats.triangles, trianglesSaved) : 0;
+  const auto check = [&](const char* what, std::uint64_t count, std::uint64_t bytesEach) {
+    const std::uint64_t texels = count * bytesEach / kTexelBytes;
+    if (texels <= info.maxTexelBufferElements) return;
+    throw DeviceError(
+        fmt::format("{}: {} {} take {} texels of 16 bytes, shaders of '{}' read lists of {} (maxTexelBufferElements): "
+                    "at most {} {}; "
+                    "draw the scene in several files",
+                    request.scene->source.string(), count, what, texels, info.name, info.maxTexelBufferElements,
+                    std::uint64_t{info.maxTexelBufferElements} * kTexelBytes / bytesEach, what));
+  };
+  check("vertices", stats.vertices, sizeof(shared::VertexAttributes));
+  check("triangles", inTrees, sizeof(shared::BvhPrimitive));
+}
+
 MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved) {
   const RenderSettings& s = request.settings;
   const std::uint64_t pixels = rowsOf(request) * s.width;

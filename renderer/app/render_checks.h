@@ -22,6 +22,9 @@ struct MemoryNeed {
 // `trianglesSaved`: those that need no place in a tree because instances share one.
 MemoryNeed memoryNeedOf(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved = 0);
 
+// DeviceError with the figures where a list of the scene is longer than shaders of the device can read.
+void checkLists(const gpu::DeviceInfo& info, const RenderRequest& request, std::uint64_t trianglesSaved = 0);
+
 struct MemoryLimits {
   std::uint64_t hostBytes = 0;    // that can be had now
   std::uint64_t deviceBytes = 0;  // of the device's largest heap

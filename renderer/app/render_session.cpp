@@ -296,6 +296,7 @@ RenderResult RenderSession::render(const RenderRequest& request, const ProgressF
   Sharing sharing;
   if (isTraced(settings.method)) sharing = planSharing(scene, originOf(request), plan, settings);
   const MemoryNeed need = memoryNeedOf(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
+  checkLists(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
   warnOfApproximations(scene, plan, settings);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);

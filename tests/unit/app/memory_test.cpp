@@ -7,6 +7,7 @@
 namespace crosslight {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -110,6 +111,29 @@ TEST(MemoryCheck, suggestsNoPartsWhereTheyDoNotHelp) {
 TEST(MemoryCheck, findsSomethingAvailableHere) {
   EXPECT_GT(availableHostBytes(), std::uint64_t{1} << 20);
   EXPECT_LT(availableHostBytes(), std::uint64_t{1} << 50) << "/proc/meminfo was not understood";
+}
+
+TEST(Lists, thatShadersCannotReadAreRefusedBeforeAnythingIsBuilt) {
+  gpu::DeviceInfo info = anyDevice();
+  info.maxTexelBufferElements = 3000;  // a thousand triangles of a tree
+  const auto refused = [&](Method method, std::uint64_t triangles, std::uint64_t vertices, std::uint64_t saved = 0) {
+    RenderRequest request = requestFor(method, 16);
+    auto scene = std::make_shared<Scene>();
+    scene->stats.triangles = triangles;
+    scene->stats.vertices = vertices;
+    request.scene = scene;
+    try {
+      checkLists(info, request, saved);
+    } catch (const DeviceError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(Method::whitted, 1000, 750), "");
+  EXPECT_THAT(refused(Method::whitted, 1001, 750), AllOf(HasSubstr("1001 triangles"), HasSubstr("at most 1000")));
+  EXPECT_THAT(refused(Method::phong, 10, 751), AllOf(HasSubstr("751 vertices"), HasSubstr("at most 750")));
+  EXPECT_EQ(refused(Method::phong, 1001, 750), "") << "no tree";
+  EXPECT_EQ(refused(Method::whitted, 2000, 750, 1000), "") << "shared";
 }
 
 }  // namespace
