@@ -23,7 +23,7 @@ class Growth {
     std::filesystem::create_directories(folder_ / "cache/mesa");
   }
 
-  void run(const std::vector<Point>& points) {
+  void run(const std::vector<Point>& points, const RoundOptions& options) {
     std::vector<Contender> contenders;
     for (const Point& point : points) {
       count(point);
@@ -31,7 +31,7 @@ class Growth {
         contenders.push_back([this, point, threads] { return render(point, threads); });
       }
     }
-    const Rounds rounds = interleave(contenders, bench_.rounds);
+    const Rounds rounds = interleave(contenders, options);
     for (const Point& point : points) {
       const std::string one = seriesName(point, 1), two = seriesName(point, 2);
       bench_.report.compare(two, one, rounds, Quantity::time);
@@ -96,7 +96,6 @@ void benchGrowth(Bench& bench) {
     throw InputError(bench.program.string(), "there is no such program; build crosslight_program or give --program");
   }
   std::vector<std::uint32_t> triangles{1'000, 10'000, 100'000, 1'000'000}, sizes{128, 256, 512, 1024, 2048};
-  if (bench.large) triangles.push_back(10'000'000);
   if (bench.quick) triangles = {1'000, 2'000}, sizes = {32, 64};
   std::vector<Point> byTriangles, byRays;
   for (const std::uint32_t n : triangles) {
@@ -106,8 +105,11 @@ void benchGrowth(Bench& bench) {
     byRays.push_back({fmt::format("growth.rays.{}", size), bench.quick ? 1'000u : 100'000u, size});
   }
   Growth growth(bench);
-  growth.run(byTriangles);
-  growth.run(byRays);
+  growth.run(byTriangles, bench.rounds);
+  growth.run(byRays, bench.rounds);
+  if (!bench.large) return;
+  // Half a minute each: three rounds, so that an interval tells little, and none to warm up beyond the run that counts.
+  growth.run({{"growth.triangles.10M", 10'000'000, 512}}, {.rounds = 3, .warmUps = 0, .shortestSeconds = 0});
 }
 
 }  // namespace crosslight::bench
