@@ -63,7 +63,7 @@ class Analysis {
       on = true;
       reason = "compiled in because all effects were asked for; " + reason;
     }
-    if (on) plan_.effects |= 1u << static_cast<std::uint32_t>(effect);
+    if (on) plan_.effects |= bitOf(effect);
     plan_.verdicts.push_back({name, on, std::move(reason)});
   }
 
@@ -218,7 +218,7 @@ class Analysis {
   void promote() {
     const bool secondary = plan_.has(Effect::reflection) || plan_.has(Effect::refraction);
     if (!secondary || plan_.has(Effect::twoSided)) return;
-    plan_.effects |= 1u << static_cast<std::uint32_t>(Effect::twoSided);
+    plan_.effects |= bitOf(Effect::twoSided);
     for (EffectVerdict& v : plan_.verdicts) {
       if (v.name == "twoSided") v = {"twoSided", true, "mirrored and refracted rays meet surfaces from behind"};
     }

@@ -11,6 +11,9 @@
 
 namespace crosslight {
 
+// In Plan::effects.
+constexpr std::uint32_t bitOf(Effect effect) { return 1u << static_cast<std::uint32_t>(effect); }
+
 struct EffectVerdict {
   std::string name;  // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
   bool on = false;
@@ -25,7 +28,7 @@ struct Plan {
   std::uint32_t effects = 0;
   std::vector<EffectVerdict> verdicts;
 
-  bool has(Effect effect) const { return (effects >> static_cast<std::uint32_t>(effect)) & 1u; }
+  bool has(Effect effect) const { return (effects & bitOf(effect)) != 0; }
 };
 
 // Whether a raster method asks for its shadows by rays: then the scene needs trees.

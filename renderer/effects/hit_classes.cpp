@@ -14,8 +14,6 @@ namespace {
 // One more kernel costs 50 to 100 ms to compile on llvmpipe; a million hits take about as long to shade.
 constexpr std::uint64_t kFewestRays = 1u << 19;
 
-constexpr std::uint32_t bitOf(Effect effect) { return 1u << static_cast<std::uint32_t>(effect); }
-
 // What materials decide by themselves; the rest of a plan (shadows, two-sidedness, absorption on a ray's way) is kept.
 constexpr std::uint32_t kOfMaterials =
     bitOf(Effect::baseColorTexture) | bitOf(Effect::metallicRoughnessTexture) | bitOf(Effect::normalMap) |

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "effects/effects.h"
+
 namespace crosslight {
 
 namespace {
@@ -70,7 +72,7 @@ std::span<const MaterialRule> rayRules() { return kRayRules; }
 std::uint32_t effectsOf(const Material& m) {
   std::uint32_t bits = 0;
   for (const auto rules : {surfaceRules(), rayRules()}) {
-    for (const MaterialRule& rule : rules) bits |= rule.test(m) ? 1u << static_cast<std::uint32_t>(rule.effect) : 0u;
+    for (const MaterialRule& rule : rules) bits |= rule.test(m) ? bitOf(rule.effect) : 0u;
   }
   return bits;
 }

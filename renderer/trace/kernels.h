@@ -58,9 +58,6 @@ KernelChoice forTree(KernelChoice choice, const GpuScene& scene);
 // Do surfaces send rays on?
 bool branches(const Plan& plan);
 
-// Rays that one workgroup of every kernel works on.
-inline constexpr std::uint32_t kRaysPerGroup = 64;
-
 // One pipeline: a kernel with bits of kSpecVariant beside the scene's own, and the class of hits whose plan it has.
 struct KernelKey {
   std::string kernel;

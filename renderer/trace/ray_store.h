@@ -19,8 +19,6 @@ struct RayStoreSize {
 };
 
 struct RayStore {
-  static constexpr std::uint32_t kQueueWords = 4;  // of `queues` per class, before the rays
-
   RayStore(const gpu::Device& device, const RayStoreSize& size, const HitClasses& classes);
   void bind(gpu::BindingSet& set) const;
 

@@ -20,7 +20,7 @@ using namespace shared;
 
 namespace {
 
-constexpr std::uint32_t kRaysPerClassifyGroup = 4 * kRaysPerGroup;
+constexpr std::uint32_t kRaysPerClassifyGroup = kClassifiedPerLane * kRaysPerGroup;
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
 class Whitted final : public Technique {
@@ -121,7 +121,7 @@ class Whitted final : public Technique {
   // Where a kernel's groups come from: all rays of the level, or a queue of its hits.
   void dispatchGroups(const TracePush& push, bool queued) {
     if (queued)
-      commands_.dispatchIndirect(store_.queues, push.hitClass * RayStore::kQueueWords * kWord);
+      commands_.dispatchIndirect(store_.queues, push.hitClass * kQueueWords * kWord);
     else
       commands_.dispatch((push.nodeCount + kRaysPerGroup - 1) / kRaysPerGroup);
   }
@@ -213,7 +213,7 @@ class Whitted final : public Technique {
 
   void queueHits(const TracePush& push) {
     for (std::uint64_t c = 0; c < kHitClasses; ++c) {  // no group yet, of 1 x 1; none in the queue
-      const std::uint64_t at = c * RayStore::kQueueWords * kWord;
+      const std::uint64_t at = c * kQueueWords * kWord;
       commands_.fill(store_.queues, at, kWord, 0u);
       commands_.fill(store_.queues, at + kWord, 2 * kWord, 1u);
       commands_.fill(store_.queues, at + 3 * kWord, kWord, 0u);

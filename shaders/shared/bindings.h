@@ -94,9 +94,12 @@ CL_CONST uint kVariantInstances = 512u;    // instances share trees; hits name f
 CL_CONST uint kVariantTiles = 4096u;       // only the tiles of kBindTileList
 CL_CONST uint kMostBoxedShapes = 32u;      // bounded ones at most for kVariantFewShapes: one bit each
 
-// kBindQueues: per class the three words of an indirect dispatch and how many there are; then per class as many words
-// as there are nodes, rays by their place in the level.
+// kBindQueues: per class kQueueWords, the three of an indirect dispatch and how many there are; then per class as many
+// words as there are nodes, rays by their place in the level.
 CL_CONST uint kHitClasses = 4u;
+CL_CONST uint kQueueWords = 4u;
+CL_CONST uint kRaysPerGroup = 64u;      // that a workgroup of every kernel of rays works on, but for
+CL_CONST uint kClassifiedPerLane = 4u;  // classify, whose lanes have several
 
 // The list at kBindRest: the three words of an indirect dispatch, one unused, then the groups.
 CL_CONST uint kRestGroups = 4u;

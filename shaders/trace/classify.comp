@@ -21,7 +21,7 @@ float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded her
 
 #include "trace/results.glsl"
 
-const uint kRaysPerLane = 4u;  // atomics are dear: one per class for all of a subgroup's rays
+const uint kRaysPerLane = kClassifiedPerLane;  // atomics are dear: one per class for all of a subgroup's rays
 
 uint classOf(HitRecord hit) {
   bool shape = isShapeHit(hit);
@@ -40,8 +40,8 @@ uvec2 countFor(uint hitClass) {
 uint countOf(uvec2 counts, uint hitClass) { return ((hitClass < 2u ? counts.x : counts.y) >> (16u * (hitClass & 1u))) & 0xffffu; }
 
 uint reserve(uint hitClass, uint count) {
-  uint first = atomicAdd(queues[4u * hitClass + 3u], count);
-  atomicMax(queues[4u * hitClass], (first + count + 63u) / 64u);
+  uint first = atomicAdd(queues[kQueueWords * hitClass + 3u], count);
+  atomicMax(queues[kQueueWords * hitClass], (first + count + kRaysPerGroup - 1u) / kRaysPerGroup);
   return first;
 }
 
@@ -69,7 +69,7 @@ void main() {
   begin = subgroupBroadcastFirst(begin);
   [[unroll]] for (uint k = 0u; k < kRaysPerLane; ++k) {
     uint c = classes[k];
-    if (c < kHitClasses) queues[4u * kHitClasses + c * pushed.nodeCapacity + begin[c] + countOf(before, c)] = first + k;
+    if (c < kHitClasses) queues[kQueueWords * kHitClasses + c * pushed.nodeCapacity + begin[c] + countOf(before, c)] = first + k;
     before += countFor(c);
   }
 }

@@ -40,8 +40,8 @@ const uint kNoRay = 0xffffffffu;
 // Ray of the level at a place of what the kernel works on: the level itself, or a queue of it.
 uint rayAtPlace(uint place) {
   if ((specVariant & kVariantQueue) == 0u) return place < pushed.nodeCount ? place : kNoRay;
-  bool there = place < queues[4u * pushed.hitClass + 3u];
-  uint ray = queues[4u * kHitClasses + pushed.hitClass * pushed.nodeCapacity + (there ? place : 0u)];
+  bool there = place < queues[kQueueWords * pushed.hitClass + 3u];
+  uint ray = queues[kQueueWords * kHitClasses + pushed.hitClass * pushed.nodeCapacity + (there ? place : 0u)];
   return there ? ray : kNoRay;
 }
 

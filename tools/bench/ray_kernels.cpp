@@ -28,7 +28,7 @@ RenderSettings withFamily(RenderSettings settings, KernelFamily family) {
 
 // So that a kernel for secondary rays is among those that the plan runs.
 Plan branching(Plan plan) {
-  plan.effects |= 1u << static_cast<std::uint32_t>(Effect::reflection);
+  plan.effects |= bitOf(Effect::reflection);
   return plan;
 }
 
