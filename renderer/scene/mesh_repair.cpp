@@ -34,8 +34,11 @@ bool allFinite(const Vector& v) {
   return true;
 }
 
-// Some unit vector across n: n crossed with the axis that it is farthest from.
-glm::dvec3 across(const glm::dvec3& n) {
+glm::dvec3 orthogonalPart(const glm::dvec3& v, const glm::dvec3& n) { return v - n * glm::dot(n, v); }
+
+}  // namespace
+
+glm::dvec3 anyAcross(const glm::dvec3& n) {
   const glm::dvec3 size = glm::abs(n);
   const glm::dvec3 axis = size.x <= size.y && size.x <= size.z ? glm::dvec3(1.0, 0.0, 0.0)
                           : size.y <= size.z                   ? glm::dvec3(0.0, 1.0, 0.0)
@@ -43,8 +46,6 @@ glm::dvec3 across(const glm::dvec3& n) {
   const glm::dvec3 tangent = safeNormalize(glm::cross(axis, n));
   return isZero(tangent) ? glm::dvec3(1.0, 0.0, 0.0) : tangent;
 }
-
-glm::dvec3 orthogonalPart(const glm::dvec3& v, const glm::dvec3& n) { return v - n * glm::dot(n, v); }
 
 double cornerAngle(const Primitive& primitive, std::size_t triangle, std::size_t corner) {
   const auto at = [&](std::size_t c) {
@@ -56,28 +57,6 @@ double cornerAngle(const Primitive& primitive, std::size_t triangle, std::size_t
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-struct TriangleTangent {
-  glm::dvec3 direction{0.0};  // unit, or zero where the texture coordinates have no area
-  bool mirrored = false;
-};
-
-TriangleTangent triangleTangent(const Primitive& primitive, const std::vector<glm::vec2>& uv, std::size_t triangle) {
-  const std::uint32_t* corner = &primitive.indices[triangle * 3];
-  const glm::dvec3 p0(primitive.positions[corner[0]]);
-  const glm::dvec3 e1 = glm::dvec3(primitive.positions[corner[1]]) - p0;
-  const glm::dvec3 e2 = glm::dvec3(primitive.positions[corner[2]]) - p0;
-  const glm::dvec2 d1 = glm::dvec2(uv[corner[1]]) - glm::dvec2(uv[corner[0]]);
-  const glm::dvec2 d2 = glm::dvec2(uv[corner[2]]) - glm::dvec2(uv[corner[0]]);
-  const double area = d1.x * d2.y - d1.y * d2.x;
-  if (area == 0.0) return {};
-  // dP/du of the linear map from texture to object space, up to its positive length.
-  const glm::dvec3 direction = (e1 * d2.y - e2 * d1.y) * (area < 0.0 ? -1.0 : 1.0);
-  // A picture that reads right has v downwards (glTF 2.0, 3.6.2.2), so its area is negative; the normal map's green
-  // points up, and the bitangent cross(n, t) * w with w = +1 is up as well.
-  return {safeNormalize(direction), area > 0.0};
-}
-
-// Copies a vertex to the end; its index.
 std::uint32_t duplicateVertex(Primitive& primitive, std::uint32_t vertex) {
   const auto copy = [vertex](auto& values) {
     if (!values.empty()) values.push_back(values[vertex]);
@@ -91,10 +70,6 @@ std::uint32_t duplicateVertex(Primitive& primitive, std::uint32_t vertex) {
   copy(primitive.colors);
   return index;
 }
-
-constexpr std::uint32_t kNone = 0xffffffffu;
-
-}  // namespace
 
 glm::dvec3 triangleCross(const Primitive& primitive, std::size_t triangle) {
   const auto at = [&](std::size_t c) { return glm::dvec3(primitive.positions[primitive.indices[triangle * 3 + c]]); };
@@ -153,45 +128,12 @@ std::size_t repairTangents(Primitive& primitive) {
     const glm::dvec3 n(primitive.normals[i]);
     glm::dvec3 unit = safeNormalize(orthogonalPart(safeNormalize(glm::dvec3(tangent)), n));
     if (isZero(unit) || !allFinite(tangent)) {
-      unit = across(n);
+      unit = anyAcross(n);
       ++count;
     }
     primitive.tangents[i] = glm::vec4(glm::vec3(unit), tangent.w < 0.0f ? -1.0f : 1.0f);
   }
   return count;
-}
-
-void makeTangents(Primitive& primitive, const std::vector<glm::vec2>& uv) {
-  const std::size_t vertexCount = primitive.positions.size();
-  std::vector<glm::dvec3> sums(vertexCount, glm::dvec3(0.0));
-  std::vector<signed char> hand(vertexCount, 0);        // 0: not met yet, then +1 or -1
-  std::vector<std::uint32_t> twin(vertexCount, kNone);  // the copy with the other hand
-  for (std::size_t triangle = 0; triangle * 3 < primitive.indices.size(); ++triangle) {
-    const TriangleTangent own = triangleTangent(primitive, uv, triangle);
-    if (isZero(own.direction)) continue;
-    const auto sign = static_cast<signed char>(own.mirrored ? -1 : 1);
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const double angle = cornerAngle(primitive, triangle, corner);
-      std::uint32_t vertex = primitive.indices[triangle * 3 + corner];
-      if (hand[vertex] == 0) hand[vertex] = sign;
-      if (hand[vertex] != sign) {
-        if (twin[vertex] == kNone) {
-          twin[vertex] = duplicateVertex(primitive, vertex);
-          sums.emplace_back(0.0);
-          hand.push_back(sign);
-        }
-        vertex = twin[vertex];
-      }
-      sums[vertex] += orthogonalPart(own.direction, glm::dvec3(primitive.normals[vertex])) * angle;
-      primitive.indices[triangle * 3 + corner] = vertex;
-    }
-  }
-  primitive.tangents.resize(primitive.positions.size());
-  for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
-    const glm::dvec3 unit = safeNormalize(sums[i]);
-    const glm::dvec3 tangent = isZero(unit) ? across(glm::dvec3(primitive.normals[i])) : unit;
-    primitive.tangents[i] = glm::vec4(glm::vec3(tangent), hand[i] < 0 ? -1.0f : 1.0f);
-  }
 }
 
 }  // namespace crosslight

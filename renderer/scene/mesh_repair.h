@@ -22,10 +22,18 @@ std::size_t repairNormals(Primitive& primitive);
 // became some direction across the normal.
 std::size_t repairTangents(Primitive& primitive);
 
-// Tangents along increasing u, per vertex: the triangles' own directions, weighted by the corner's angle, vertices
-// split where mirrored and unmirrored texture coordinates meet. Not MikkTSpace bit for bit (that is a later issue):
-// it welds and weights in another order, so baked normal maps can differ slightly along seams.
+// Tangents as glTF prescribes where a mesh has none: MikkTSpace's rules, on the texture coordinates `uv`. Vertices are
+// split where it asks for several (tangent_space.cpp).
 void makeTangents(Primitive& primitive, const std::vector<glm::vec2>& uv);
+
+// Angle at a corner of a triangle, radians.
+double cornerAngle(const Primitive& primitive, std::size_t triangle, std::size_t corner);
+
+// Copies a vertex to the end; its index.
+std::uint32_t duplicateVertex(Primitive& primitive, std::uint32_t vertex);
+
+// Some unit vector across n: n crossed with the axis that it is farthest from.
+glm::dvec3 anyAcross(const glm::dvec3& n);
 
 // Twice the area times the unit normal, in double.
 glm::dvec3 triangleCross(const Primitive& primitive, std::size_t triangle);
