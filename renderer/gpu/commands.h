@@ -15,8 +15,8 @@ namespace crosslight::gpu {
 
 enum class ColorBefore { clear, keep, undefined };  // undefined: the caller draws over every pixel
 
-// What a rendering pass draws into. The whole image is the viewport until viewportRows. `resolve` takes the average of
-// a multisampled color.
+// What a rendering pass draws into: the given rows, which alone are cleared, drawn and resolved. The whole image is the
+// viewport until viewportRows. `resolve` takes the average of a multisampled color.
 struct RenderTargets {
   const Image* color = nullptr;
   const Image* resolve = nullptr;
@@ -24,6 +24,8 @@ struct RenderTargets {
   ColorBefore colorBefore = ColorBefore::clear;
   bool clearDepth = true;  // to 0: reversed Z
   glm::vec4 clearValue{0.0f};
+  std::uint32_t firstRow = 0;
+  std::uint32_t rowCount = 0;  // 0: all
 };
 
 struct TimedSpan {
@@ -59,8 +61,6 @@ class Commands {
   // Draws rows [firstRow, firstRow + the target's) of a picture of `height` rows: the viewport is the whole picture,
   // moved.
   void viewportRows(std::uint32_t firstRow, std::uint32_t height);
-  // Draws only into these rows; after beginRendering, which sets the whole image.
-  void scissorRows(std::uint32_t firstRow, std::uint32_t rowCount);
   void drawIndexed(std::uint32_t indexCount, std::uint32_t firstIndex, std::int32_t vertexOffset,
                    std::uint32_t firstInstance);
 

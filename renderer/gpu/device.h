@@ -21,8 +21,9 @@ struct DeviceInfo {
   bool isSoftware = false;
   std::uint32_t subgroupSize = 0;
   bool hasFloat64 = false;
-  bool hasSampleShading = false;  // GraphicsState::shadePerSample
-  float timestampPeriodNs = 0;    // 0: no timestamps
+  bool hasSampleShading = false;    // GraphicsState::shadePerSample; fragments may ask which sample they are of
+  bool canBlendPerChannel = false;  // Blend::overPerChannel
+  float timestampPeriodNs = 0;      // 0: no timestamps
   std::uint64_t maxStorageBufferBytes = 0;
   std::uint64_t maxTexelBufferElements = 0;
   std::uint32_t uniformWindowAlignment = 0;  // of the offsets of uniform windows, bytes

@@ -134,9 +134,11 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
   const bool limited = VK_API_VERSION_MAJOR(basic.driverVersion) < kMesaWithoutLimit;
   if (driver.driverID == vk::DriverId::eMesaLlvmpipe && limited) info.maxLoopPasses = kLlvmpipeLoopPasses;
   info.subgroupSize = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
-  info.hasFloat64 = physical.getFeatures().shaderFloat64 == VK_TRUE;
+  const vk::PhysicalDeviceFeatures features = physical.getFeatures();
+  info.hasFloat64 = features.shaderFloat64 == VK_TRUE;
+  info.canBlendPerChannel = features.dualSrcBlend == VK_TRUE;
+  info.hasSampleShading = features.sampleRateShading == VK_TRUE;
   if (basic.apiVersion >= VK_API_VERSION_1_3) info.rayQueryLacks = rayQueryLacks(physical);
-  info.hasSampleShading = physical.getFeatures().sampleRateShading == VK_TRUE;
   return info;
 }
 
@@ -244,6 +246,7 @@ FeatureChain wantedFeatures(const DeviceInfo& info) {
     chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
   }
   core.sampleRateShading = info.hasSampleShading ? VK_TRUE : VK_FALSE;
+  core.dualSrcBlend = info.canBlendPerChannel ? VK_TRUE : VK_FALSE;
   return chain;
 }
 

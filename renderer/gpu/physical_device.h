@@ -16,8 +16,7 @@ struct Candidate {
 
 std::vector<Candidate> candidatesOf(const vk::raii::Instance& instance);
 
-// Every feature that a usable device must have, for vkCreateDevice; with 64-bit floats and ray queries when it has
-// them.
+// Every feature that a usable device must have, for vkCreateDevice, and the optional ones that DeviceInfo says it has.
 using FeatureChain =
     vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
                        vk::PhysicalDeviceVulkan13Features, vk::PhysicalDeviceAccelerationStructureFeaturesKHR,

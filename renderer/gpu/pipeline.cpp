@@ -144,6 +144,13 @@ void FixedState::describeTargets(const GraphicsState& state) {
         .setSrcAlphaBlendFactor(vk::BlendFactor::eOne)
         .setDstAlphaBlendFactor(vk::BlendFactor::eOneMinusSrcAlpha);
   }
+  if (state.blend == Blend::overPerChannel) {
+    target.setBlendEnable(VK_TRUE)
+        .setSrcColorBlendFactor(vk::BlendFactor::eOne)
+        .setDstColorBlendFactor(vk::BlendFactor::eSrc1Color)
+        .setSrcAlphaBlendFactor(vk::BlendFactor::eOne)
+        .setDstAlphaBlendFactor(vk::BlendFactor::eSrc1Alpha);
+  }
   if (state.colorTarget) {
     CL_CHECK(state.colorFormat == ImageFormat::rgba32f || state.blend == Blend::off);
     colorFormat = formatOf(state.colorFormat);

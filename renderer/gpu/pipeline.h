@@ -96,7 +96,8 @@ struct VertexBufferLayout {
 };
 
 enum class DepthTest { off, greater, greaterOrEqual, equal };  // reversed Z: nearer is greater
-enum class Blend { off, overPremultiplied };                   // src + (1 - src.a) * dst
+// src + (1 - src.a) * dst; src + src1 * dst, src1 being the shader's second output (DeviceInfo::canBlendPerChannel)
+enum class Blend { off, overPremultiplied, overPerChannel };
 enum class PolygonMode { fill, line };
 
 struct GraphicsState {

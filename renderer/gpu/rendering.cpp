@@ -102,11 +102,17 @@ vk::RenderingAttachmentInfo depthAttachment(CommandsImpl& impl, const RenderTarg
       .setClearValue(vk::ClearDepthStencilValue(0.0f, 0));
 }
 
+vk::Rect2D areaOf(const RenderTargets& targets, const vk::Extent2D& extent) {
+  const std::uint32_t rows = targets.rowCount > 0 ? targets.rowCount : extent.height - targets.firstRow;
+  checkRows(extent, targets.firstRow, rows);
+  return {{0, static_cast<std::int32_t>(targets.firstRow)}, {extent.width, rows}};
+}
+
 // The dynamic state that every pipeline of this room has.
-void setDrawDefaults(const vk::raii::CommandBuffer& commands, const vk::Extent2D& extent) {
+void setDrawDefaults(const vk::raii::CommandBuffer& commands, const vk::Extent2D& extent, const vk::Rect2D& area) {
   commands.setViewport(
       0, vk::Viewport(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0.0f, 1.0f));
-  commands.setScissor(0, vk::Rect2D({0, 0}, extent));
+  commands.setScissor(0, area);
   commands.setCullMode(vk::CullModeFlagBits::eNone);
   commands.setFrontFace(vk::FrontFace::eCounterClockwise);
 }
@@ -133,7 +139,8 @@ void Commands::beginRendering(const RenderTargets& targets) {
   CL_CHECK(impl_->recording && !impl_->drawing);
   checkTargets(targets);
   const ImageImpl& main = targets.color != nullptr ? targets.color->impl() : targets.depth->impl();
-  auto info = vk::RenderingInfo().setRenderArea({{0, 0}, main.extent}).setLayerCount(1);
+  const vk::Rect2D area = areaOf(targets, main.extent);
+  auto info = vk::RenderingInfo().setRenderArea(area).setLayerCount(1);
   vk::RenderingAttachmentInfo color, depth;
   if (targets.color != nullptr) {
     color = colorAttachment(*impl_, targets);
@@ -144,7 +151,7 @@ void Commands::beginRendering(const RenderTargets& targets) {
     info.setPDepthAttachment(&depth);
   }
   impl_->commands.beginRendering(info);
-  setDrawDefaults(impl_->commands, main.extent);
+  setDrawDefaults(impl_->commands, main.extent, area);
   impl_->drawing = true;
   impl_->targetExtent = main.extent;
   impl_->targetSamples = main.samples;
@@ -175,13 +182,6 @@ void Commands::cull(Cull mode, bool clockwiseIsFront) {
   CL_CHECK(impl_->recording);
   impl_->commands.setCullMode(mode == Cull::back ? vk::CullModeFlagBits::eBack : vk::CullModeFlagBits::eNone);
   impl_->commands.setFrontFace(clockwiseIsFront ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-}
-
-void Commands::scissorRows(std::uint32_t firstRow, std::uint32_t rowCount) {
-  CL_CHECK(impl_->drawing);
-  checkRows(impl_->targetExtent, firstRow, rowCount);
-  impl_->commands.setScissor(
-      0, vk::Rect2D({0, static_cast<std::int32_t>(firstRow)}, {impl_->targetExtent.width, rowCount}));
 }
 
 void Commands::viewportRows(std::uint32_t firstRow, std::uint32_t height) {

@@ -20,9 +20,9 @@ struct DrawCall {
 };
 
 struct DrawLists {
-  std::vector<DrawCall> opaque;   // in scene order: of coincident surfaces the first one stays
-  std::vector<DrawCall> blended;  // from far to near
-  std::vector<DrawCall> records;  // everything in scene order, one call per DrawRecord: the AOVs need its ids
+  std::vector<DrawCall> opaque;       // in scene order: of coincident surfaces the first one stays
+  std::vector<DrawCall> transparent;  // in scene order
+  std::vector<DrawCall> records;      // everything in scene order, one call per DrawRecord: the AOVs need its ids
 };
 
 DrawLists makeDrawLists(const FlatScene& flat, const Scene& scene, const Plan& plan, const RenderSettings& settings);

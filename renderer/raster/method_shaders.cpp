@@ -8,16 +8,17 @@ namespace crosslight {
 MethodShaders shadersOf(const RenderSettings& settings, bool codes) {
   switch (settings.method) {
     case Method::wireframe:
-      return {"phong.vert", "wireframe.frag", "phong_aov.frag"};
+      return {"phong.vert", "wireframe.frag", "phong_aov.frag", {}};
     case Method::flat:
       if (settings.flatVertex == FlatVertex::centroid)
-        return {"phong.vert", codes ? "centroid_codes.frag" : "centroid.frag", "centroid_aov.frag"};
-      if (codes) return {"flat_codes.vert", "flat_codes.frag", {}};
-      return {"flat.vert", "flat.frag", "flat_aov.frag"};
+        return {"phong.vert", codes ? "centroid_codes.frag" : "centroid.frag", "centroid_aov.frag",
+                "centroid_layers.frag"};
+      if (codes) return {"flat_codes.vert", "flat_codes.frag", {}, {}};
+      return {"flat.vert", "flat.frag", "flat_aov.frag", "flat_layers.frag"};
     case Method::gouraud:
-      return {"gouraud.vert", codes ? "gouraud_codes.frag" : "gouraud.frag", "gouraud_aov.frag"};
+      return {"gouraud.vert", codes ? "gouraud_codes.frag" : "gouraud.frag", "gouraud_aov.frag", "gouraud_layers.frag"};
     case Method::phong:
-      return {"phong.vert", codes ? "phong_codes.frag" : "phong.frag", "phong_aov.frag"};
+      return {"phong.vert", codes ? "phong_codes.frag" : "phong.frag", "phong_aov.frag", "phong_layers.frag"};
     case Method::whitted:
       break;
   }

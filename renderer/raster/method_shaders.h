@@ -12,7 +12,8 @@ namespace crosslight {
 struct MethodShaders {
   std::string_view vertex;
   std::string_view fragment;
-  std::string_view aovFragment;  // records AOVs instead of a color
+  std::string_view aovFragment;     // records AOVs instead of a color
+  std::string_view layersFragment;  // keeps the color in a list; none: everything is opaque
 };
 
 // `codes`: as a display's codes (canDrawCodes).

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/check.h"
 #include "base/log.h"
 #include "raster/depth_prepass.h"
 #include "raster/draw_list.h"
 #include "raster/draw_uniforms.h"
+#include "raster/layers.h"
 #include "raster/method_shaders.h"
 #include "raster/shadow_pass.h"
 #include "raster/strip.h"
@@ -53,6 +55,10 @@ class Raster final : public Technique {
     if (buffers.wantsCodes()) set_.set(kBindDisplayCodes, buffers.codeTable);
     shadows_.make(device, layout_, constants(kVaryingAll));
     shadows_.bind(set_);
+    if (!lists_.transparent.empty()) {
+      layers_.emplace(device, settings.width, stripRows_, settings.msaa, settings.maxLayerBytes);
+      layers_->bind(set_);
+    }
     makePipelines(device);
     makeIndices(device);
   }
@@ -62,7 +68,8 @@ class Raster final : public Technique {
     commands_.begin();
     shadows_.record(commands_, set_);
     for (const Strip& strip : stripsOf(request.band, stripRows_)) {
-      if (request.color) drawColor(strip, request.band);
+      if (request.color && layers_) drawLayered(strip, request.band, tally);
+      if (request.color && !layers_) drawColor(strip, request.band);
       if (request.aovs) drawAovs(strip, request.band);
     }
     commands_.barrier();
@@ -81,12 +88,16 @@ class Raster final : public Technique {
     return {{"draws", draws_},
             {"traversalsCapped", capped_},
             {"shadowMaps", shadows_.mapCount()},
-            {"depthPrepass", prepass_.pays ? 1 : 0}};
+            {"depthPrepass", prepass_.pays ? 1 : 0},
+            {"transparentFragments", layers_ ? layers_->mostFragments() : 0}};
   }
 
  private:
   std::vector<gpu::Binding> bindings() const {
     std::vector<gpu::Binding> all = sceneBindings({kBindAovs, kBindCounters});
+    if (!lists_.transparent.empty()) {
+      for (const gpu::Binding& binding : Layers::bindings()) all.push_back(binding);
+    }
     for (const gpu::Binding& binding : DrawUniforms::bindings()) all.push_back(binding);
     for (const gpu::Binding& binding : shadows_.bindings()) all.push_back(binding);
     if (buffers_.wantsCodes()) all.push_back({kBindDisplayCodes, gpu::BindingType::texelBufferUint1});
@@ -174,11 +185,7 @@ class Raster final : public Technique {
       makePrepass(device);
     }
     opaque_ = gpu::GraphicsPipeline(device, layout_, color);
-    if (plan_.has(Effect::transparency)) {
-      color.blend = gpu::Blend::overPremultiplied;
-      color.depthWrite = false;
-      blended_ = gpu::GraphicsPipeline(device, layout_, color);
-    }
+    if (layers_) makeLayerPipelines(device, color, shaders);
     if (!settings_.aovs.empty()) makeAovPipelines(device, shaders);
   }
 
@@ -189,6 +196,20 @@ class Raster final : public Technique {
     gpu::GraphicsState fill = depthState();
     fill.depthBiasConstant = kPrepassBias;
     depthFill_ = gpu::GraphicsPipeline(device, layout_, fill);
+  }
+
+  void makeLayerPipelines(const gpu::Device& device, gpu::GraphicsState keep, const MethodShaders& shaders) {
+    const gpu::Constants constants = layers_->constants();
+    keep.fragment = gpu::embeddedShader(shaders.layersFragment);
+    keep.colorTarget = keep.depthWrite = false;
+    keep.constants.insert(keep.constants.end(), constants.begin(), constants.end());
+    keepLayers_ = gpu::GraphicsPipeline(device, layout_, keep);
+    gpu::GraphicsState resolve = backgroundState();
+    resolve.fragment = gpu::embeddedShader("layers_resolve.frag");
+    resolve.constants = constants;
+    resolve.depthTest = gpu::DepthTest::off;
+    resolve.blend = gpu::Blend::overPerChannel;
+    resolveLayers_ = gpu::GraphicsPipeline(device, layout_, resolve);
   }
 
   void makeAovPipelines(const gpu::Device& device, const MethodShaders& shaders) {
@@ -234,22 +255,38 @@ class Raster final : public Technique {
       }
       commands_.cull(call.cullsBackFaces ? gpu::Commands::Cull::back : gpu::Commands::Cull::none,
                      (call.flags & kDrawFlipsWinding) != 0);
-      commands_.push(
-          RasterPush{call.firstTriangle, firstPixel, call.drawId, call.materialId, call.flags, buffers_.displayGain});
+      commands_.push(RasterPush{call.firstTriangle, firstPixel, call.drawId, call.materialId, call.flags,
+                                buffers_.displayGain, layerFirstRow_, layers_ ? layers_->capacity() : 0});
       commands_.drawIndexed(3 * call.triangleCount, 3 * call.firstTriangle, 0, 0);
       ++draws_;
     }
   }
 
-  void beginStrip(const gpu::RenderTargets& targets, const Strip& strip) {
+  void beginStrip(gpu::RenderTargets targets, const Strip& strip) {
+    targets.firstRow = strip.rows.firstRow - strip.firstRow;
+    targets.rowCount = strip.rows.rowCount;
     commands_.beginRendering(targets);
     commands_.viewportRows(strip.firstRow, settings_.height);
-    commands_.scissorRows(strip.rows.firstRow - strip.firstRow, strip.rows.rowCount);
   }
 
-  void drawColor(const Strip& strip, const Band& band) {
+  // Rows of the strip, as many at once as the lists have room for.
+  void drawLayered(const Strip& strip, const Band& band, Tally& tally) {
+    for (std::uint32_t done = 0; done < strip.rows.rowCount;) {
+      const std::uint32_t count = std::min(layers_->rowsAtOnce(), strip.rows.rowCount - done);
+      const Strip part{strip.firstRow, {strip.rows.firstRow + done, count}};
+      drawColor(part, band, done > 0 ? gpu::ColorBefore::keep : gpu::ColorBefore::undefined);
+      commands_.submitAndWait();
+      if (layers_->keptAll(part.rows, set_)) {
+        tally.add(commands_.spans());
+        done += count;
+      }
+      commands_.begin();
+    }
+  }
+
+  void drawColor(const Strip& strip, const Band& band, gpu::ColorBefore before = gpu::ColorBefore::undefined) {
     commands_.beginSpan("raster");
-    recordColor(strip);
+    recordColor(strip, before);
     commands_.endSpan();
     if (targets_.areFilm) {
       CL_CHECK_EQ(band.firstRow, 0u);  // a film as large as the picture has one band
@@ -263,7 +300,7 @@ class Raster final : public Technique {
     commands_.endSpan();
   }
 
-  void recordColor(const Strip& strip) {
+  void recordColor(const Strip& strip, gpu::ColorBefore before) {
     gpu::RenderTargets targets;
     targets.depth = &targets_.depth;
     if (depthFill_ && !settings_.hiddenLines) {
@@ -274,18 +311,40 @@ class Raster final : public Technique {
       targets.clearDepth = false;
     }
     targets.color = targets_.multisampled ? &targets_.multisampled : &targets_.picture;
-    targets.resolve = targets_.multisampled ? &targets_.picture : nullptr;
+    targets.resolve = targets_.multisampled && !layers_ ? &targets_.picture : nullptr;
     targets.clearValue = glm::vec4(seenBackground(scene_.scene().atmosphere, settings_), 0.0f);
-    if (background_) targets.colorBefore = gpu::ColorBefore::undefined;
+    if (background_) targets.colorBefore = before;
     beginStrip(targets, strip);
     drawCalls(opaque_, lists_.opaque, 0);
     if (background_) {
       commands_.bind(background_, set_);
       commands_.cull(gpu::Commands::Cull::none, false);
-      commands_.push(RasterPush{0, strip.firstRow, 0, 0, 0, buffers_.displayGain});
+      commands_.push(RasterPush{0, strip.firstRow, 0, 0, 0, buffers_.displayGain, 0, 0});
       commands_.draw(3);
     }
-    drawCalls(blended_, lists_.blended, 0);
+    commands_.endRendering();
+    if (layers_) recordLayers(strip, targets);
+  }
+
+  // Over what is opaque: every transparent fragment nearer than it into lists, then the lists into the picture.
+  void recordLayers(const Strip& strip, gpu::RenderTargets targets) {
+    layers_->clear(commands_, strip.rows.rowCount);
+    commands_.barrier();
+    layerFirstRow_ = strip.rows.firstRow - strip.firstRow;
+    gpu::RenderTargets depthOnly;
+    depthOnly.depth = targets.depth;
+    depthOnly.clearDepth = targets.clearDepth = false;
+    beginStrip(depthOnly, strip);
+    drawCalls(keepLayers_, lists_.transparent, 0);
+    commands_.endRendering();
+    commands_.barrier();
+    targets.colorBefore = gpu::ColorBefore::keep;
+    targets.resolve = targets_.multisampled ? &targets_.picture : nullptr;
+    beginStrip(targets, strip);
+    commands_.bind(resolveLayers_, set_);
+    commands_.cull(gpu::Commands::Cull::none, false);
+    commands_.push(RasterPush{0, 0, 0, 0, 0, buffers_.displayGain, layerFirstRow_, layers_->capacity()});
+    commands_.draw(3);
     commands_.endRendering();
   }
 
@@ -318,7 +377,9 @@ class Raster final : public Technique {
   gpu::Commands commands_;
   std::uint32_t stripRows_;
   RasterTargets targets_;
-  gpu::GraphicsPipeline opaque_, blended_, background_, depthFill_, aovDepthPass_, aovPass_;
+  std::optional<Layers> layers_;  // where something is transparent
+  std::uint32_t layerFirstRow_ = 0;
+  gpu::GraphicsPipeline opaque_, keepLayers_, resolveLayers_, background_, depthFill_, aovDepthPass_, aovPass_;
   gpu::Buffer rotatedIndices_;
   PrepassVerdict prepass_;
   std::uint64_t draws_ = 0, capped_ = 0;

@@ -63,11 +63,12 @@ struct RenderSettings {
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;
   FlatVertex flatVertex = FlatVertex::first;
-  bool hiddenLines = false;        // wireframe: draw hidden edges too
-  bool clampVertexColors = false;  // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
-  bool allEffects = false;         // compile and run everything instead of what the scene calls for
-  bool allowNonfinite = false;     // NaN and Inf in the result are reported but do not fail the run
-  std::vector<std::string> aovs;   // names of kAovNames
+  bool hiddenLines = false;                // wireframe: draw hidden edges too
+  bool clampVertexColors = false;          // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
+  bool allEffects = false;                 // compile and run everything instead of what the scene calls for
+  bool allowNonfinite = false;             // NaN and Inf in the result are reported but do not fail the run
+  std::uint64_t maxLayerBytes = 1u << 28;  // raster: for transparent fragments; more than fit are drawn in fewer rows
+  std::vector<std::string> aovs;           // names of kAovNames
 
   bool operator==(const RenderSettings&) const = default;
 };

@@ -1,5 +1,6 @@
 // Fragment stage of every raster method: finds the surface, takes or computes its lighting, and either colors the
-// pixel, as floats or as a display's codes (CL_CODES), or (CL_AOV) records what is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
+// pixel, as floats or as a display's codes (CL_CODES), or keeps its color in a list (CL_LAYERS), or (CL_AOV) records what
+// is known about it. CL_CENTROID lights the triangle's centroid (flat shading).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
 #ifndef CL_SUMS_MODE
@@ -7,7 +8,7 @@
 #endif
 #include "raster/draw.glsl"
 #include "shade/shade.glsl"
-#include "shade/fog.glsl"
+#include "raster/air.glsl"
 #include "shade/triangle.glsl"
 #include "raster/fragment_in.glsl"
 
@@ -17,8 +18,12 @@ layout(set = 0, binding = kBindAovs, scalar) writeonly buffer AovBlock { AovReco
 #elif defined(CL_CODES)
 layout(location = 0) out uint outCodes;
 #include "raster/display.glsl"
+#elif defined(CL_LAYERS)
+layout(early_fragment_tests) in;
+#include "shade/transparency.glsl"
+#include "raster/layers.glsl"
 #else
-layout(location = 0) out vec4 outColor;  // premultiplied
+layout(location = 0) out vec4 outColor;
 #endif
 
 SurfaceInput surfaceInput() {
@@ -82,14 +87,6 @@ vec3 litColor(SurfaceInput at, SurfacePoint s) {
 }
 #endif
 
-#ifndef CL_AOV
-// `behind`: share of what lies behind that shows.
-vec3 seenThroughAir(vec3 color, float behind, vec3 renderPos) {
-  if (CL_HAS(fog)) return throughFog(color, vec3(behind), fogOver(fogDistance(renderPos)));
-  return color;
-}
-#endif
-
 #ifdef CL_AOV
 void record(SurfaceInput at, SurfacePoint s, ShadedParts parts) {
   uint pixel = uint(gl_FragCoord.y) * frame.resolution.x + uint(gl_FragCoord.x) - pushed.firstPixel;
@@ -121,15 +118,16 @@ void main() {
   SurfacePoint s = surfaceAt(at);
 #ifdef CL_AOV
   record(at, s, compose(s, lighting(s), frame.ambient));
-#elif defined(CL_CODES)  // nothing is transparent
-  outCodes = shownCodes(seenThroughAir(litColor(at, s), 0.0, at.renderPos));
+#elif defined(CL_LAYERS)
+  Layer layer = layerOf(s, litColor(at, s));
+  layer.color = seenThroughAir(layer.color, layer.passed, at.renderPos);
+  keepLayer(layer);
+#elif defined(CL_CODES)
+  outCodes = shownCodes(seenThroughAir(litColor(at, s), vec3(0.0), at.renderPos));
 #ifdef CL_FLAT_CODES
   if (kShownByVertex) outCodes = gl_FrontFacing || !CL_HAS(twoSided) ? litSums[0].x : litSums[kBack].x;
 #endif
 #else
-  float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
-  float through = CL_HAS(transparency) ? maxComponent(s.transmissionColor) * float(s.model == kModel_cookTorrance) : 0.0;
-  float alpha = opacity * (1.0 - through);
-  outColor = vec4(seenThroughAir(litColor(at, s) * opacity, 1.0 - alpha, at.renderPos), alpha);
+  outColor = vec4(seenThroughAir(litColor(at, s), vec3(0.0), at.renderPos), 1.0);
 #endif
 }

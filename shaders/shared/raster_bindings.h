@@ -4,9 +4,12 @@
 #include "types.h"
 
 CL_SHARED_BEGIN
-CL_CONST uint kBindDrawMaterial = 30;      // uniform MaterialRecord: a window onto that of the draw
-CL_CONST uint kBindFewLights = 31;         // uniform LightRecord[kFewLights]
-CL_CONST uint kBindDisplayCodes = 40;      // uint texels: displayCodeTable() of the image room; pictures of codes only
+CL_CONST uint kBindDrawMaterial = 30;  // uniform MaterialRecord: a window onto that of the draw
+CL_CONST uint kBindFewLights = 31;     // uniform LightRecord[kFewLights]
+CL_CONST uint kBindDisplayCodes = 40;  // uint texels: displayCodeTable() of the image room; pictures of codes only
+CL_CONST uint kBindLayerHeads = 50;    // uint per sample of the rows that are drawn: its last LayerRecord, or kNoLayer
+CL_CONST uint kBindLayers = 51;        // LayerRecord[], in the order in which fragments came
+CL_CONST uint kBindLayerCounts = 52;   // uint[kLayerCounts]
 CL_CONST uint kBindVertexVisibility = 65;  // float[vertices * lights]: of methods that light vertices
 CL_CONST uint kBindShadowTexels = 66;      // uint texels: bits of distances, see shadow_map.glsl
 CL_CONST uint kBindShadowViews = 67;       // ShadowView[]
@@ -14,6 +17,8 @@ CL_CONST uint kBindShadowLights = 68;      // ShadowLight[], one per light
 
 CL_CONST uint kSpecVaryings = 30;       // bits kVarying*: what the vertex stage passes on and fragments read
 CL_CONST uint kSpecLightCount = 31;     // lights in kBindFewLights; kManyLights: read kBindLights instead
+CL_CONST uint kSpecSamples = 40;        // per pixel
+CL_CONST uint kSpecLoopPasses = 41;     // at most, through all loops of an invocation
 CL_CONST uint kSpecRasterShadows = 55;  // kShadows*
 CL_CONST uint kSpecShadowFilter = 56;   // texels a side that a lookup averages; 0: as many as the penumbra is wide
 
@@ -36,13 +41,32 @@ CL_CONST uint kVaryingAll = 0xffffffffu;
 // color would do. For AOVs.
 CL_CONST uint kVariantSeparateSums = 2u;
 
+// A transparent fragment of one sample.
+struct LayerRecord {
+  float depth;    // gl_FragCoord.z: nearer is greater
+  uint triangle;  // of the flattened list: of equal depths the first lies in front
+  uint next;      // kNoLayer: none
+  vec3 color;     // what it adds, times what it hides
+  vec3 passed;    // share of what lies behind that shows
+};
+CL_SIZE(LayerRecord, 36)
+CL_CONST uint kNoLayer = 0xffffffffu;
+
+CL_CONST uint kLayersWanted = 0;    // fragments, those included for which there was no room
+CL_CONST uint kLayersTooMany = 1;   // 1: more than can be counted
+CL_CONST uint kLayersCutShort = 2;  // 1: a sample has more than the loops of this driver can sort
+CL_CONST uint kLayerCounts = 3;
+
 struct RasterPush {
   uint firstTriangle;  // of the draw: added to gl_PrimitiveID
-  uint firstPixel;     // AOV pass: subtracted from the target's pixel index to give that within the band
-  uint drawId;         // AOV pass
+  uint firstPixel;  // AOV pass: subtracted from the target's pixel index to give that within the band; background: row
+                    // of the picture that is the target's first
+  uint drawId;      // AOV pass
   uint materialId;
-  uint drawFlags;     // kDraw*
-  float displayGain;  // pictures of codes only
+  uint drawFlags;      // kDraw*
+  float displayGain;   // pictures of codes only
+  uint layerFirstRow;  // of the target: where the rows begin that have lists
+  uint layerCapacity;
 };
 
 // How a light sees the scene: one map. In the list of texels a view has layers of size * size words: distances along

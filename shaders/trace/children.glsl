@@ -90,7 +90,10 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
     mirrorWeight = classic ? m.mirror : s.specularColor + (1.0 - s.specularColor) * schlick;
   }
   vec3 throughWeight = CL_HAS(transparency) || bends ? (classic ? vec3(m.transmission) : s.transmissionColor) : vec3(0.0);
-  float behind = CL_HAS(transparency) && !(classic && m.transmission > 0.0) ? 1.0 - s.opacity : 0.0;
+  if (!classic) throughWeight *= s.opacity;  // glass passes light where it covers
+  bool inOpacity = classic && m.transmission > 0.0;
+  bool blends = (m.flags & kMaterialAlphaBlend) != 0u;
+  float behind = CL_HAS(transparency) && (blends || !inOpacity) ? 1.0 - s.opacity - (inOpacity ? m.transmission : 0.0) : 0.0;
   if (bends && !classic) {
     mirrorWeight = CL_HAS(reflection) ? vec3(F) : vec3(0.0);
     throughWeight *= 1.0 - F;

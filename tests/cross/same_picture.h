@@ -48,10 +48,4 @@ class Steady {
   const std::vector<float>& albedo_;
 };
 
-// Colored transmission: rays weigh each channel, the rasteriser's blending knows one opacity.
-inline bool isTinted(const Material& m) {
-  const glm::vec4& base = m.baseColorFactor;
-  return m.transmissionFactor > 0 && !(base.r == base.g && base.g == base.b);
-}
-
 }  // namespace crosslight::testing

@@ -228,7 +228,14 @@ TEST_F(GpuTest, BandsOfRowsAreDrawnAndReadBackByThemselves) {
   Canvas canvas(device(), 4, 8);
   Commands commands(device());
   commands.begin();
-  canvas.draw(commands, canvas.targets(), leftPart(1.0f, 0.5f, kRed), [](Commands& c) { c.scissorRows(2, 3); });
+  RenderTargets targets = canvas.targets();
+  commands.beginRendering(targets);
+  commands.endRendering();
+  commands.barrier();
+  targets.firstRow = 2;
+  targets.rowCount = 3;
+  targets.colorBefore = ColorBefore::keep;
+  canvas.draw(commands, targets, leftPart(1.0f, 0.5f, kRed));
   const auto pixels = canvas.rows(commands, 1, 5);
   ASSERT_EQ(pixels.size(), 20u);
   for (std::uint32_t y = 0; y < 5; ++y) {

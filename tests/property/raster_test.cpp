@@ -61,7 +61,7 @@ TEST(DrawLists, joinNeighboursOfOneStateAndKeepTheOrder) {
     EXPECT_TRUE(lists.opaque[i].cullsBackFaces) << "a material that is not double-sided";
   }
   EXPECT_EQ(lists.records.size(), 5u) << "AOVs need the ids of each";
-  EXPECT_TRUE(lists.blended.empty());
+  EXPECT_TRUE(lists.transparent.empty());
 }
 
 std::vector<glm::vec4> pictureOf(const Scene& scene, const RenderSettings& settings, const std::vector<Band>& rows,
