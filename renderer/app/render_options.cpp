@@ -267,6 +267,18 @@ BvhCache bvhCacheOf(const RenderOptions& o) {
   return {.folder = std::filesystem::absolute(o.bvhCache)};
 }
 
+DisplacementOptions displacementOf(const RenderOptions& o) {
+  RenderSettings settings;
+  for (const std::string& pair : o.set) applySet(pair, settings);
+  DisplacementOptions displacement{.level = settings.displacementLevel};
+  if (settings.displacementEdge > 0.0f) {
+    const Resolution resolution = resolutionOf(o.resolution);
+    displacement = {settings.displacementLevel, settings.displacementEdge, o.camera, resolution.width,
+                    resolution.height};
+  }
+  return displacement;
+}
+
 LoadOptions loadOptionsOf(const RenderOptions& o) {
   LoadOptions load;
   load.scene = o.sceneName;
@@ -274,6 +286,7 @@ LoadOptions loadOptionsOf(const RenderOptions& o) {
   load.animation = o.animation;
   load.timeSeconds = o.timeSeconds;
   load.hashContents = !o.part.empty();
+  load.displacement = displacementOf(o);
   return load;
 }
 

@@ -76,6 +76,8 @@ RenderSettings checkedSettings(const RenderOptions& options);
 DisplayTransform checkedDisplay(const RenderOptions& options);
 // Where --bvh-cache keeps trees.
 BvhCache bvhCacheOf(const RenderOptions& options);
+// How finely displaced meshes are split; with what it hangs on, where that is the view.
+DisplacementOptions displacementOf(const RenderOptions& options);
 LoadOptions loadOptionsOf(const RenderOptions& options);
 
 // "640x480"; UsageError with the rule otherwise.

@@ -12,10 +12,13 @@ namespace {
 std::string keyOf(const RenderOptions& o) {
   const std::string turned = o.turnDegrees == 0 ? "" : fmt::format("{} {:a}", o.camera, o.turnDegrees);
   const std::string time = o.timeGiven ? fmt::format("{:a}", o.timeSeconds) : "";
+  const DisplacementOptions d = displacementOf(o);
+  const std::string split = d.edgePixels > 0 ? fmt::format("{:a} {} {} {}", d.edgePixels, d.camera, d.width, d.height)
+                                             : std::to_string(d.level);
   // Length first: no two lists of words give one key.
   std::string key;
-  for (const std::string& word :
-       {o.scene, o.sceneName, o.animation, time, turned, std::string(o.part.empty() ? "" : "hashed"), o.environment}) {
+  for (const std::string& word : {o.scene, o.sceneName, o.animation, time, turned, split,
+                                  std::string(o.part.empty() ? "" : "hashed"), o.environment}) {
     key += fmt::format("{}:{};", word.size(), word);
   }
   for (const std::string& pair : o.set) {  // glowing surfaces are lights of the scene

@@ -1,6 +1,7 @@
 // The steps from a parsed model to the parts of a Scene. Internal to the scene room.
 #pragma once
 
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <memory>
@@ -17,13 +18,16 @@ inline constexpr double kLargestCoordinate = 1e18;
 void readClassicMaterial(const JsonAt& extension, Material& material);
 ClassicLight readClassicLight(const JsonAt& extension);
 Atmosphere readAtmosphere(const JsonAt& extension, const Document& document);
-void checkDisplacement(const JsonAt& extension, std::size_t textureCount);
 struct NodeShape {
   ShapeKind kind = ShapeKind::sphere;
   glm::vec4 params{0.0f};
   int material = -1;  // -1: not said
 };
 NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount);
+
+// Reads a texture info by its owner and key; none where the key is missing.
+using TextureReader = std::function<TextureUse(const JsonAt& owner, const char* key)>;
+void readDisplacement(const JsonAt& extension, const TextureReader& texture, Material& material);
 
 // gltf_specular_glossiness.cpp: the archived KHR_materials_pbrSpecularGlossiness as metallic-roughness, factors only.
 void readSpecularGlossiness(const JsonAt& extension, Material& material);

@@ -114,15 +114,12 @@ Atmosphere readAtmosphere(const JsonAt& extension, const Document& document) {
   return atmosphere;
 }
 
-void checkDisplacement(const JsonAt& extension, std::size_t textureCount) {
+void readDisplacement(const JsonAt& extension, const TextureReader& texture, Material& material) {
   extension.onlyKnows({"displacementTexture", "scale", "bias"});
-  const JsonAt texture = extension.at("displacementTexture");
-  texture.onlyKnows({"index", "texCoord"});
-  texture.at("index").reference(textureCount, "texture");
-  integerOr(texture, "texCoord", 0);
-  numberOr(extension, "scale", 1.0);
-  numberOr(extension, "bias", 0.0);
-  extension.warn("is read, but displacement is not simulated yet");
+  extension.at("displacementTexture").onlyKnows({"index", "texCoord"});
+  material.displacementTexture = texture(extension, "displacementTexture");
+  material.displacementScale = number(extension, "scale", material.displacementScale, {});
+  material.displacementBias = number(extension, "bias", material.displacementBias, {});
 }
 
 NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount) {

@@ -212,6 +212,12 @@ Scene SceneFile::Impl::pose(Scene scene, double timeSeconds) {
   checkExtent(scene, document);
   document.notes.log();
   addDefaults(scene, document);
+  if (displaceMeshes(scene, options.displacement)) {
+    scene.stats.triangles = scene.stats.vertices = 0;
+    scene.worldBounds = {};
+    fillBoundsAndCounts(scene);
+    checkExtent(scene, document);
+  }
   return scene;
 }
 

@@ -109,11 +109,7 @@ class MaterialBuilder {
 
   void readArchived(const JsonAt& archived, Material& out) {
     readSpecularGlossiness(archived, out);
-    if (const auto info = archived.find("diffuseTexture")) {
-      const std::size_t index = info->at("index").reference(source_.document.count("textures"), "texture");
-      const std::int64_t texCoord = integerOr(*info, "texCoord", 0, std::numeric_limits<int>::max());
-      out.baseColorTexture = texture(static_cast<int>(index), static_cast<int>(texCoord), archived, "diffuseTexture");
-    }
+    if (archived.find("diffuseTexture")) out.baseColorTexture = extensionTexture(archived, "diffuseTexture");
     out.metallicRoughnessTexture = {};
     ignoreTexture(archived, "specularGlossinessTexture");
   }
@@ -130,7 +126,15 @@ class MaterialBuilder {
     return known;
   }
 
-  void readExtensions(const JsonAt& at, Material& out) const {
+  TextureUse extensionTexture(const JsonAt& owner, const char* key) {
+    const auto info = owner.find(key);
+    if (!info) return {};
+    const std::size_t index = info->at("index").reference(source_.document.count("textures"), "texture");
+    const std::int64_t texCoord = integerOr(*info, "texCoord", 0, std::numeric_limits<int>::max());
+    return texture(static_cast<int>(index), static_cast<int>(texCoord), owner, key);
+  }
+
+  void readExtensions(const JsonAt& at, Material& out) {
     if (const auto strength = at.extension("KHR_materials_emissive_strength")) {
       out.emissiveStrength = static_cast<float>(numberOr(*strength, "emissiveStrength", 1.0, Range::atLeast(0.0)));
     }
@@ -144,7 +148,8 @@ class MaterialBuilder {
     // Last: its fallback for other viewers may be anything, unlit too.
     if (const auto classic = at.extension("CROSSLIGHT_materials_classic")) readClassicMaterial(*classic, out);
     if (const auto displacement = at.extension("CROSSLIGHT_materials_displacement")) {
-      checkDisplacement(*displacement, source_.document.count("textures"));
+      readDisplacement(
+          *displacement, [this](const JsonAt& owner, const char* key) { return extensionTexture(owner, key); }, out);
     }
   }
 

@@ -9,6 +9,7 @@
 
 #include "base/interrupt.h"
 #include "scene/gltf_build.h"
+#include "scene/material_textures.h"
 #include "scene/mesh_repair.h"
 
 namespace crosslight::gltf {
@@ -127,8 +128,7 @@ const std::vector<glm::vec2>& uvOf(const Primitive& primitive, const TextureUse&
 }
 
 void warnOfMissingUv(const Primitive& primitive, const Material& material, const JsonAt& at, Notes& notes) {
-  for (const TextureUse* use : {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-                                &material.occlusionTexture, &material.emissiveTexture}) {
+  for (const TextureUse* use : texturesOf(material)) {
     if (use->present() && uvOf(primitive, *use).empty()) {
       notes.add(at,
                 fmt::format("its material reads TEXCOORD_{}, which it does not have; (0, 0) is taken", use->texCoord));
@@ -149,8 +149,8 @@ void finish(Primitive& primitive, const Material& material, const JsonAt& at, Do
     if (repairTangents(primitive) > 0) {
       document.notes.add(at, "has tangents that cannot be used; they become some direction across the normal");
     }
-  } else if (material.normalTexture.present() && !uvOf(primitive, material.normalTexture).empty()) {
-    makeTangents(primitive, uvOf(primitive, material.normalTexture));
+  } else if (const TextureUse* along = tangentTexture(material); along && !uvOf(primitive, *along).empty()) {
+    makeTangents(primitive, uvOf(primitive, *along));
   }
 }
 

@@ -7,16 +7,18 @@
 #include <optional>
 #include <string>
 
+#include "scene/displacement.h"
 #include "scene/scene.h"
 
 namespace crosslight {
 
 struct LoadOptions {
-  std::string scene{};        // name or index; empty: the file's default, else the first
-  double timeSeconds = 0.0;   // where animations are evaluated
-  bool animate = false;       // false: the rest pose as the nodes have it, animations are left alone
-  std::string animation{};    // name or index of the only one to evaluate; empty: all of them
-  bool hashContents = false;  // fill SceneStats::contentHash
+  std::string scene{};       // name or index; empty: the file's default, else the first
+  double timeSeconds = 0.0;  // where animations are evaluated
+  bool animate = false;      // false: the rest pose as the nodes have it, animations are left alone
+  std::string animation{};   // name or index of the only one to evaluate; empty: all of them
+  DisplacementOptions displacement{};
+  bool hashContents = false;                        // fill SceneStats::contentHash
   std::uint64_t maxBytes = std::uint64_t{8} << 30;  // of file, buffers and decoded images together
 };
 

@@ -82,7 +82,9 @@ struct Material {
   bool hasVolume = false;           // KHR_materials_volume: the surface bounds a body; else it is thin
   glm::vec3 attenuationColor{1.0f};
   float attenuationDistance = std::numeric_limits<float>::infinity();
-  ClassicMaterial classic;  // for lambert, phong, blinnPhong
+  TextureUse displacementTexture;  // CROSSLIGHT_materials_displacement: height in the red channel
+  float displacementScale = 1.0f, displacementBias = 0.0f;  // scene units
+  ClassicMaterial classic;                                  // for lambert, phong, blinnPhong
 };
 
 // Triangle list. Normals are never missing: where the file has none the vertices are split and the normals are the

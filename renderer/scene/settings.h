@@ -62,6 +62,8 @@ struct RenderSettings {
   bool infiniteViewer = false;
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;
+  std::uint32_t displacementLevel = 4;  // every edge of a displaced mesh is split into 2^n, unless displacementEdge
+  float displacementEdge = 0.0f;        // pixels: edges are split until none is longer on the screen; 0: by the level
   FlatVertex flatVertex = FlatVertex::first;
   bool hiddenLines = false;                // wireframe: draw hidden edges too
   bool clampVertexColors = false;          // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped

@@ -10,7 +10,7 @@ namespace crosslight::scenegen {
 std::vector<SceneRow> allScenes() {
   std::vector<SceneRow> all;
   for (const auto rows : {analyticScenes(), showcaseScenes(), overviewScenes(), featureScenes(), lightScenes(),
-                          airScenes(), areaLightScenes(), stressScenes()}) {
+                          airScenes(), areaLightScenes(), surfaceScenes(), stressScenes()}) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   std::sort(all.begin(), all.end(),

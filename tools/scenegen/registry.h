@@ -23,6 +23,7 @@ std::span<const SceneRow> featureScenes();
 std::span<const SceneRow> lightScenes();
 std::span<const SceneRow> airScenes();
 std::span<const SceneRow> areaLightScenes();
+std::span<const SceneRow> surfaceScenes();
 std::span<const SceneRow> stressScenes();
 
 std::vector<SceneRow> allScenes();  // by path
