@@ -72,6 +72,8 @@ std::string materialLine(const Material& material) {
   if (material.doubleSided) text += ", two-sided";
   if (!material.classic.preset.empty()) text += ", preset " + material.classic.preset;
   if (material.transmissionFactor > 0) text += fmt::format(", transmission {:g}", material.transmissionFactor);
+  if (material.priority) text += fmt::format(", priority {}", *material.priority);
+  if (material.dispersion > 0) text += fmt::format(", dispersion {:g}", material.dispersion);
   const auto textures = texturesOf(material);
   if (!textures.empty()) text += ", textures " + joined(textures, " ");
   return text;

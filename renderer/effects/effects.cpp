@@ -8,6 +8,7 @@
 #include <set>
 
 #include "effects/material_traits.h"
+#include "effects/media.h"
 #include "scene/shape_mesh.h"
 #include "structs.h"
 
@@ -50,6 +51,7 @@ class Analysis {
     vertexColors();
     sides();
     whatRaysDo();
+    bodies();
     air();
     promote();
     return std::move(plan_);
@@ -203,6 +205,20 @@ class Analysis {
         : !area && !around        ? "no light has an area, and there is no environment"
         : !settings_.lightSamples ? "switched off: lights with an area cast shadows from their middle"
                                   : fmt::format("{}, {} rays to it", who, settings_.lightSamples));
+  }
+
+  void bodies() {
+    const std::string reason = reasonForNestedMedia(scene_, settings_);
+    add(Effect::nestedMedia, "nestedMedia", !reason.empty(),
+        reason.empty() ? "no body has a priority, and the camera is in none" : reason);
+    const auto disperses = [](const Material& m) { return m.dispersion > 0.0f && isBody(m); };
+    const MaterialRule rule{Effect::dispersion, "dispersion", "spreads light into colors", disperses};
+    const bool bends = traced_ && settings_.refraction && settings_.maxDepth > 0;
+    if (settings_.dispersion == Dispersion::rgb && bends) {
+      addByMaterial(rule);
+    } else {
+      add(rule.effect, rule.name, false, traced_ ? "not asked for" : "not simulated by raster methods");
+    }
   }
 
   void air() {

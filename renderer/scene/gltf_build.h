@@ -16,6 +16,7 @@ inline constexpr double kLargestCoordinate = 1e18;
 
 // gltf_extensions.cpp: the CROSSLIGHT_* family. Each reader is the schema's twin in scenes/schema/.
 void readClassicMaterial(const JsonAt& extension, Material& material);
+void readDielectric(const JsonAt& extension, Material& material);
 ClassicLight readClassicLight(const JsonAt& extension);
 Atmosphere readAtmosphere(const JsonAt& extension, const Document& document);
 struct NodeShape {

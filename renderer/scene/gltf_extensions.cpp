@@ -89,6 +89,13 @@ void readClassicMaterial(const JsonAt& extension, Material& material) {
   classic.reflectionFactor = vec3Or(extension, "reflectionFactor", classic.reflectionFactor, kUnit);
 }
 
+void readDielectric(const JsonAt& extension, Material& material) {
+  constexpr std::int64_t kMostPriority = 1000;
+  extension.onlyKnows({"priority"});
+  extension.at("priority");
+  material.priority = static_cast<int>(integerOr(extension, "priority", 0, kMostPriority));
+}
+
 ClassicLight readClassicLight(const JsonAt& extension) {
   extension.onlyKnows({"attenuation", "spotExponent", "spotCutoff", "ambient", "diffuse", "specular"});
   ClassicLight light;

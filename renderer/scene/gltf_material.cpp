@@ -144,6 +144,10 @@ class MaterialBuilder {
       ignoreTexture(*transmission, "transmissionTexture");
     }
     if (const auto volume = at.extension("KHR_materials_volume")) readVolume(*volume, out);
+    if (const auto dispersion = at.extension("KHR_materials_dispersion")) {
+      out.dispersion = static_cast<float>(numberOr(*dispersion, "dispersion", 0.0, Range::atLeast(0.0)));
+    }
+    if (const auto dielectric = at.extension("CROSSLIGHT_materials_dielectric")) readDielectric(*dielectric, out);
     if (at.extension("KHR_materials_unlit")) out.model = IlluminationModel::unlit;
     // Last: its fallback for other viewers may be anything, unlit too.
     if (const auto classic = at.extension("CROSSLIGHT_materials_classic")) readClassicMaterial(*classic, out);

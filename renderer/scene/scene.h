@@ -79,7 +79,10 @@ struct Material {
   float indexOfRefraction = 1.5f;   // KHR_materials_ior; 0 means infinite F0
   bool hasIor = false;              // the file states it
   float transmissionFactor = 0.0f;  // KHR_materials_transmission (its texture is named in a warning)
-  bool hasVolume = false;           // KHR_materials_volume: the surface bounds a body; else it is thin
+  float dispersion = 0.0f;          // KHR_materials_dispersion: 20 / Abbe number
+  // CROSSLIGHT_materials_dielectric: where bodies overlap the highest priority counts, of equals the one entered last.
+  std::optional<int> priority;
+  bool hasVolume = false;  // KHR_materials_volume: the surface bounds a body; else it is thin
   glm::vec3 attenuationColor{1.0f};
   float attenuationDistance = std::numeric_limits<float>::infinity();
   TextureUse displacementTexture;  // CROSSLIGHT_materials_displacement: height in the red channel

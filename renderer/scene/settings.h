@@ -18,6 +18,7 @@ enum class HitQueues { automatic, on, off };            // of hits by what their
 enum class DepthPrepass { automatic, on, off };         // phong: same image, other speed
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
+enum class Dispersion { off, rgb };                     // of refracted rays: one, or one for each of three colors
 enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
 enum class EmissiveLights { off, on, automatic };       // surfaces that glow light others; automatic: without lights
 
@@ -65,12 +66,13 @@ struct RenderSettings {
   std::uint32_t displacementLevel = 4;  // every edge of a displaced mesh is split into 2^n, unless displacementEdge
   float displacementEdge = 0.0f;        // pixels: edges are split until none is longer on the screen; 0: by the level
   FlatVertex flatVertex = FlatVertex::first;
-  bool hiddenLines = false;                // wireframe: draw hidden edges too
-  bool clampVertexColors = false;          // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
-  bool allEffects = false;                 // compile and run everything instead of what the scene calls for
-  bool allowNonfinite = false;             // NaN and Inf in the result are reported but do not fail the run
-  std::uint64_t maxLayerBytes = 1u << 28;  // raster: for transparent fragments; more than fit are drawn in fewer rows
-  std::vector<std::string> aovs;           // names of kAovNames
+  bool hiddenLines = false;                 // wireframe: draw hidden edges too
+  bool clampVertexColors = false;           // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
+  Dispersion dispersion = Dispersion::off;  // whitted
+  std::uint64_t maxLayerBytes = 1u << 28;   // raster: for transparent fragments; more than fit are drawn in fewer rows
+  bool allEffects = false;                  // compile and run everything instead of what the scene calls for
+  bool allowNonfinite = false;              // NaN and Inf in the result are reported but do not fail the run
+  std::vector<std::string> aovs;            // names of kAovNames
 
   bool operator==(const RenderSettings&) const = default;
 };

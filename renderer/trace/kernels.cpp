@@ -165,7 +165,7 @@ bool driverKeepsCode() {
 gpu::BindingLayout layoutOn(const gpu::Device& device, const KernelChoice& choice, bool byTiles) {
   std::vector<gpu::Binding> bindings =
       sceneBindings({kBindRays, kBindHits, kBindRayNodes, kBindVisibility, kBindCounters, kBindSampleColor, kBindAovs,
-                     kBindRest, kBindQueues},
+                     kBindRest, kBindQueues, kBindMedia},
                     {kBindRayTexels, kBindHitTexels, kBindNodeTexels, kBindHitClasses});
   if (byTiles) bindings.push_back({kBindTileList, gpu::BindingType::texelBufferUint1});
   if (choice.byDevice) bindings.push_back({kBindTriangleBoxes, gpu::BindingType::boxSearch});

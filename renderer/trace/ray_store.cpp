@@ -44,6 +44,7 @@ RayStore::RayStore(const gpu::Device& device, const RayStoreSize& size, const Hi
       rest(wordsOf(device, "groups that packets gave up", kRestGroups + capacity / kRaysPerGroup + 1)),
       queues(wordsOf(device, "hit queues", classes.classes.empty() ? 0 : kHitClasses * (kQueueWords + capacity))),
       hitClasses(gpu::Buffer::of(device, "hit classes", classes.ofMaterial, gpu::useUniformTexel)),
+      media(listOf<glm::uvec4>(device, "bodies that rays are in", size.nestedMedia ? capacity : 1)),
       visibility(listOf<float>(device, "visibility",
                                size.shadows ? std::uint64_t{capacity} * (batch + (size.environment ? 1 : 0)) : 1)) {}
 
@@ -57,6 +58,7 @@ void RayStore::bind(gpu::BindingSet& set) const {
   set.set(kBindRest, rest);
   set.set(kBindQueues, queues);
   set.set(kBindHitClasses, hitClasses);
+  set.set(kBindMedia, media);
   set.set(kBindVisibility, visibility);
 }
 

@@ -15,6 +15,7 @@ struct RayStoreSize {
   bool tree = false;      // rays may follow
   bool branches = false;  // nodes are kept
   bool environment = false;
+  bool nestedMedia = false;
   bool shadows = false;
 };
 
@@ -25,7 +26,7 @@ struct RayStore {
   std::uint32_t chunk;     // camera rays at once
   std::uint32_t capacity;  // nodes of their trees
   std::uint32_t batch;     // lights whose visibility is kept at once
-  gpu::Buffer rays, nodes, hits, rest, queues, hitClasses, visibility;
+  gpu::Buffer rays, nodes, hits, rest, queues, hitClasses, media, visibility;
 };
 
 }  // namespace crosslight

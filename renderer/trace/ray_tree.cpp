@@ -48,6 +48,8 @@ class Assembly {
       tree.nodes[index].transmitted = tree.nodes.size();
       const glm::vec4 through = add(r.transmitted, index, tree);
       sum += glm::vec4(glm::vec3(through) * records_[r.transmitted].weight, (1.0f - sum.a) * through.a);
+      for (std::uint32_t node = r.transmitted + 1; node < r.transmitted + r.transmittedCount; ++node)
+        sum += glm::vec4(glm::vec3(add(node, index, tree)) * records_[node].weight, 0.0f);
     }
     tree.nodes[index].value = glm::vec3(sum);
     return sum;

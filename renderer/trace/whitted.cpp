@@ -32,6 +32,7 @@ class Whitted final : public Technique {
         settings_(settings),
         buffers_(buffers),
         branches_(crosslight::branches(plan)),
+        nestedMedia_(plan.has(Effect::nestedMedia)),
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
         classes_(kernels_->classes().classes),
@@ -92,6 +93,7 @@ class Whitted final : public Technique {
             .tree = branches_ && settings_.maxDepth > 0,
             .branches = branches_,
             .environment = scene_.scene().atmosphere.environment.present(),
+            .nestedMedia = nestedMedia_,
             .shadows = !choice_.shadow.empty()};
   }
 
@@ -167,7 +169,7 @@ class Whitted final : public Technique {
     reset[kCounterRayNodes] = count;
     reset[kCounterOverflow] = reset[kCounterShadowRays] = reset[kCounterReflection] = 0;
     reset[kCounterRefraction] = reset[kCounterPassThrough] = reset[kCounterCapped] = 0;
-    reset[kCounterGaveUp] = 0;
+    reset[kCounterGaveUp] = reset[kCounterMediaLost] = 0;
     buffers_.counters.write(0, std::as_bytes(std::span(reset)));
 
     TracePush push{};
@@ -279,6 +281,10 @@ class Whitted final : public Technique {
     levels_ = std::max<std::uint64_t>(levels_, levels);
     capped_ += counters[kCounterCapped];
     gaveUp_ += counters[kCounterGaveUp];
+    if (counters[kCounterMediaLost] > 0) {
+      logWarning(fmt::format("some rays are in more than {} bodies at once: those that they entered last are left out",
+                             kMostMedia));
+    }
     if (counters[kCounterCapped] > 0) {
       logWarning("some rays met the limit of traversal steps; what lies beyond it is missing from the image");
     }
@@ -288,7 +294,7 @@ class Whitted final : public Technique {
   GpuScene& scene_;
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
-  bool branches_;
+  bool branches_, nestedMedia_;
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;
   const std::vector<HitClass>& classes_;

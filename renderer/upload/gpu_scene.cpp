@@ -1,9 +1,14 @@
 #include "upload/gpu_scene.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "base/error.h"
 #include "bindings.h"
+#include "effects/media.h"
 #include "upload/environment_tables.h"
 
 namespace crosslight {
@@ -82,13 +87,45 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   }
 }
 
+// Once for all samples of a picture: the bodies around the camera are looked for triangle by triangle.
+void GpuScene::placeCamera() {
+  if (placedFor_ == settings_) return;
+  placedFor_ = settings_;
+  cameraMedia_ = glm::uvec4(0);
+  cameraMedium_ = kNoId;
+  optics_ = 0;
+  if (settings_.dispersion == Dispersion::rgb) optics_ |= kOpticsDispersion;
+  if (reasonForNestedMedia(scene_, settings_).empty()) return;
+  optics_ |= kOpticsNestedMedia;
+  constexpr std::size_t kMostMaterials = 0xffff;  // sixteen bits, with none
+  if (scene_.materials.size() >= kMostMaterials) {
+    throw InputError(scene_.source.string() + ": /materials",
+                     fmt::format("bodies within bodies need fewer than {} materials, there are {}: leave out "
+                                 "CROSSLIGHT_materials_dielectric, or refraction (--set refraction=off)",
+                                 kMostMaterials, scene_.materials.size()));
+  }
+  const std::vector<int> media = cameraMedia(scene_, settings_);
+  int highest = std::numeric_limits<int>::min();
+  for (std::size_t i = 0; i < std::min<std::size_t>(media.size(), kMostMedia); ++i) {
+    const int priority = scene_.materials[static_cast<std::size_t>(media[i])].priority.value_or(0);
+    const auto place = static_cast<glm::length_t>(i / 2);
+    cameraMedia_[place] |= (static_cast<std::uint32_t>(media[i]) + 1) << (16 * (i % 2));
+    if (priority >= highest) cameraMedium_ = static_cast<std::uint32_t>(media[i]);
+    highest = std::max(highest, priority);
+  }
+}
+
 void GpuScene::setSample(const glm::vec2& sampleOffset, std::uint32_t sampleIndex) {
+  placeCamera();
   FrameRecord frame = makeFrameRecord(scene_, settings_, sampleOffset);
   frame.sampleIndex = sampleIndex;
   frame.unboundedShapeCount = flat_.unboundedShapeCount;
   frame.boundedShapeCount = static_cast<std::uint32_t>(flat_.shapeBounds.size());
   frame.shapeRoot = shapeRoot_;
   frame.meshDrawCount = flat_.meshDrawCount;
+  frame.cameraMedia = cameraMedia_;
+  frame.cameraMedium = cameraMedium_;
+  frame.optics = optics_;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));
 }
 

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,10 +42,14 @@ class GpuScene {
  private:
   GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat, FlatBvh bvh,
            bool keepsLists);
+  void placeCamera();
 
   const Scene& scene_;
   const RenderSettings& settings_;
   FlatScene flat_;
+  std::optional<RenderSettings> placedFor_;
+  glm::uvec4 cameraMedia_{0};
+  std::uint32_t cameraMedium_ = shared::kNoId, optics_ = 0;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,
       environment_, nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;

@@ -53,6 +53,8 @@ class MaterialWriter {
     r.mirror = classic ? m.classic.reflectionFactor : glm::vec3(0.0f);
     r.attenuationColor = m.attenuationColor;
     r.attenuationDistance = absorbs(m) ? m.attenuationDistance : 0.0f;
+    r.priority = static_cast<float>(m.priority.value_or(0));
+    r.dispersion = m.dispersion;
     r.baseColorTexture = slot(m.baseColorTexture, true);
     r.metallicRoughnessTexture = slot(m.metallicRoughnessTexture, false);
     r.normalTexture = slot(m.normalTexture, false);

@@ -24,7 +24,9 @@
   X(15, turnedShapes)            \
   X(16, fog)                     \
   X(18, environment)             \
-  X(19, softShadows)
+  X(19, softShadows)             \
+  X(20, dispersion)              \
+  X(21, nestedMedia)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
@@ -68,6 +70,8 @@ CL_CONST uint kBindActiveTiles = 73;    // uint[tiles of the band]: 1 where the 
 CL_CONST uint kBindTileErrors = 74;     // float[tiles of the band]
 CL_CONST uint kBindMoments = 75;        // PixelMoments[pixels of the band]
 CL_CONST uint kBindEnvironment = 55;    // texel buffer, RGBA32F: see shaders/shade/environment.glsl
+CL_CONST uint kBindMedia = 53;          // uvec4 per ray node: the bodies that the ray is in (trace/media.glsl)
+CL_CONST uint kMostMedia = 8u;          // at once
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 
@@ -115,6 +119,7 @@ CL_CONST uint kCounterNonfinite = 6;
 CL_CONST uint kCounterFirstNonfinite = 7;  // 2^32 - 1 - (first image pixel whose sample is not finite); 0: none
 CL_CONST uint kCounterCapped = 8;          // traversals that met the stack's or the loop's limit
 CL_CONST uint kCounterGaveUp = 9;          // packets that left their rays to be done one by one
+CL_CONST uint kCounterMediaLost = 10;      // rays that entered more bodies at once than are kept
 CL_CONST uint kCounterCount = 16;
 
 // A ray that is stored: mirrored, refracted or passed on, at the place of its node. Camera rays are computed where they
@@ -133,14 +138,14 @@ CL_SIZE(RayRecord, 48)
 
 // What comes back along a ray. Three texels; kept only when the plan's surfaces send rays on.
 struct RayNode {
-  vec3 value;         // radiance; once gathered with the children's and times the weight
-  float alpha;        // coverage of what the ray meets
-  vec3 weight;        // share of the value in the parent's
-  float travelled;    // scene units through fog before the ray's origin: of the rays that it goes straight on from
-  uint reflected;     // node of the reflected child, or kNoRayNode
-  uint transmitted;   // node of the refracted or straight-through child, or kNoRayNode
-  uint seenDirectly;  // 1: only straight-through surfaces lie between the camera and the ray. With fog only
-  uint unused;
+  vec3 value;             // radiance; once gathered with the children's and times the weight
+  float alpha;            // coverage of what the ray meets
+  vec3 weight;            // share of the value in the parent's
+  float travelled;        // scene units through fog before the ray's origin: of the rays that it goes straight on from
+  uint reflected;         // node of the reflected child, or kNoRayNode
+  uint transmitted;       // node of the refracted or straight-through child, or kNoRayNode
+  uint seenDirectly;      // 1: only straight-through surfaces lie between the camera and the ray. With fog only
+  uint transmittedCount;  // with dispersion: 1, or 3 nodes from `transmitted` on, for red, green and blue
 };
 CL_SIZE(RayNode, 48)
 CL_CONST uint kNoRayNode = 0xffffffffu;

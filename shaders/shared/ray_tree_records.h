@@ -26,8 +26,9 @@ struct RayTreeRecord {
   uint transmitted;
   uint instanceId;
   uint primitiveId;
+  uint transmittedCount;  // nodes from `transmitted` on
 };
-CL_SIZE(RayTreeRecord, 112)
+CL_SIZE(RayTreeRecord, 116)
 
 // What one light brings to a hit, and how much of it arrives.
 struct RayTreeLightRecord {

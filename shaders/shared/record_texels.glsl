@@ -49,7 +49,7 @@ TextureSlot oddSlot(int at) {
 }
 
 MaterialRecord materialOf(uint material) {
-  int at = int(21u * material);
+  int at = int(kMaterialTexels * material);
   uvec4 a = texelFetch(materialTexels, at), b = texelFetch(materialTexels, at + 1), c = texelFetch(materialTexels, at + 2);
   uvec4 d = texelFetch(materialTexels, at + 3), e = texelFetch(materialTexels, at + 4), f = texelFetch(materialTexels, at + 5);
   uvec4 g = texelFetch(materialTexels, at + 6), h = texelFetch(materialTexels, at + 7);
@@ -78,6 +78,9 @@ MaterialRecord materialOf(uint material) {
   m.normalTexture = oddSlot(at + 13);
   m.occlusionTexture = evenSlot(at + 16);
   m.emissiveTexture = oddSlot(at + 18);
+  m.priority = 0.0;  // mediumOf() reads what bodies need
+  m.dispersion = 0.0;
+  m.unused1 = m.unused2 = 0u;
   return m;
 }
 #endif

@@ -80,8 +80,13 @@ struct MaterialRecord {
   TextureSlot normalTexture;
   TextureSlot occlusionTexture;
   TextureSlot emissiveTexture;
+  float priority;    // nestedMedia: the highest counts where bodies overlap
+  float dispersion;  // KHR_materials_dispersion: 20 / Abbe number
+  uint unused1, unused2;
 };
-CL_SIZE(MaterialRecord, 336)
+CL_SIZE(MaterialRecord, 352)
+CL_CONST uint kMaterialTexels = 22u;
+CL_CONST int kBodyTexel = 21;  // the one that holds `priority` and `dispersion`
 CL_CONST uint kMaterialDoubleSided = 1u;
 CL_CONST uint kMaterialAlphaMask = 2u;
 CL_CONST uint kMaterialAlphaBlend = 4u;
@@ -161,8 +166,14 @@ struct FrameRecord {
   uvec2 environmentSize;  // texels of the map
   vec2 environmentTurn;   // cosine and sine of its rotation about +Y
   float environmentGain;  // radiance of a texel of 1
+  uvec4 cameraMedia;      // the bodies that the camera is in, as kBindMedia has them
+  uint cameraMedium;      // material of the one that counts; kNoId: none
+  uint optics;            // kOptics*
 };
-CL_SIZE(FrameRecord, 248)
+CL_SIZE(FrameRecord, 272)
+// What changes how light goes through bodies: by the scene or by request, so a pipeline with everything must ask.
+CL_CONST uint kOpticsNestedMedia = 1u;
+CL_CONST uint kOpticsDispersion = 2u;
 CL_CONST uint kFogNone = 0u;
 CL_CONST uint kFogLinear = 1u;
 CL_CONST uint kFogExp = 2u;

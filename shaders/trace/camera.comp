@@ -12,5 +12,5 @@ float lightVisibility(uint lightIndex) { return 1.0; }  // nothing is shaded her
 
 void main() {
   uint ray = rayOfInvocation();
-  if (ray != kNoRay) hits[ray] = closestTriangle(cameraRay(cameraPlace(ray)), true);
+  if (ray != kNoRay) hits[ray] = closestTriangle(cameraRay(cameraPlace(ray)), goesStraight(kRayPrimary));
 }

@@ -37,7 +37,7 @@ Ray cameraRay(CameraPlace place) {
 
 // The ray of a node with its history: computed for the camera's, fetched for others.
 RayRecord recordOf(Ray ray) {
-  return RayRecord(ray.origin, ray.tMin, ray.direction, ray.tMax, ray.from, kNoRayNode, kRayPrimary, 0u);
+  return RayRecord(ray.origin, ray.tMin, ray.direction, ray.tMax, ray.from, frame.cameraMedium, kRayPrimary, 0u);
 }
 RayRecord rayOfNode(uint node, CameraPlace place) {
   RayRecord camera = recordOf(cameraRay(place));

@@ -17,7 +17,7 @@ uint rayIndex(int k) { return (spreadGroup() * uint(kRaysPerLane) + uint(k)) * k
 
 void main() {
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) startRay(k, cameraRay(cameraPlace(rayIndex(k))));
-  if (!closestForInterval(true)) giveUp(spreadGroup());
+  if (!closestForInterval(goesStraight(kRayPrimary))) giveUp(spreadGroup());
   int taken = 0;
   [[dont_unroll]] do {
     HitRecord found = takeFound();

@@ -10,6 +10,7 @@ struct NewRay {
   uint medium;
   float travelled;  // RayNode has it
   bool seenDirectly;
+  uvec4 media;  // with nestedMedia
 };
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
@@ -22,8 +23,8 @@ vec3 mirrorRay(vec3 d, vec3 n, vec3 ng) {
 
 // Nodes for the rays of all lanes with one atomic per counter: three counts of up to ten bits travel in one word.
 // Returns this lane's first node.
-uint allocateNodes(bool reflects, bool transmits, bool bends) {
-  uint wanted = (reflects ? 1u | 1u << 10u : 0u) + (transmits ? (bends ? 1u | 1u << 20u : 1u) : 0u);
+uint allocateNodes(bool reflects, uint transmitted, bool bends) {
+  uint wanted = (reflects ? 1u | 1u << 10u : 0u) + transmitted * (bends ? 1u | 1u << 20u : 1u);
   uint before = subgroupExclusiveAdd(wanted);
   uint all = subgroupAdd(wanted);
   uint count = all & 1023u, reflected = (all >> 10u) & 1023u, refracted = all >> 20u;
@@ -50,22 +51,43 @@ uint storeRay(uint slot, RayRecord parent, HitSurface h, NewRay ray) {
     nodes[slot].travelled = ray.travelled;
     nodes[slot].seenDirectly = ray.seenDirectly ? 1u : 0u;
   }
+  if (CL_HAS(nestedMedia)) mediaOfNodes[slot] = ray.media;
   return slot;
 }
 
 Children addRays(RayRecord parent, HitSurface h, NewRay mirrored, NewRay onward) {
   bool reflects = carriesLight(mirrored.weight), transmits = carriesLight(onward.weight);
-  uint first = allocateNodes(reflects, transmits, onward.kind == kRayRefraction);
-  Children children = Children(kNoRayNode, kNoRayNode);
+  uint first = allocateNodes(reflects, transmits ? 1u : 0u, onward.kind == kRayRefraction);
+  Children children = Children(kNoRayNode, kNoRayNode, 1u);
   if (reflects) children.reflected = storeRay(first, parent, h, mirrored);
   if (transmits) children.transmitted = storeRay(first + (reflects ? 1u : 0u), parent, h, onward);
   return children;
 }
 
+// One ray for every channel that goes on.
+Children addDispersedRays(RayRecord parent, HitSurface h, NewRay mirrored, NewRay onward, Dispersed dispersed) {
+  bool reflects = carriesLight(mirrored.weight);
+  uint count = 0u;
+  for (int c = 0; c < 3; ++c) count += onward.weight[c] > 0.0 ? 1u : 0u;
+  uint next = allocateNodes(reflects, count, true);
+  Children children = Children(kNoRayNode, kNoRayNode, count);
+  if (reflects) children.reflected = storeRay(next++, parent, h, mirrored);
+  for (int c = 0; c < 3; ++c) {
+    if (!(onward.weight[c] > 0.0)) continue;
+    NewRay one = onward;
+    one.weight = onlyChannel(onward.weight, c);
+    one.direction = dispersed.direction[c];
+    uint node = storeRay(next++, parent, h, one);
+    if (children.transmitted == kNoRayNode) children.transmitted = node;
+  }
+  return children;
+}
+
 // `passed` is set to the share of the ray that goes straight on: its fog is counted farther on.
-Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog fog, out vec3 passed) {
+Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog fog, SurfaceMedia media,
+                       out vec3 passed) {
   passed = vec3(0.0);
-  if (ray.depth >= pushed.maxDepth) return Children(kNoRayNode, kNoRayNode);
+  if (ray.depth >= pushed.maxDepth) return Children(kNoRayNode, kNoRayNode, 1u);
   MaterialRecord m = materialOf(h.at.materialId);
   vec3 d = safeNormalize(ray.direction, vec3(0.0, 0.0, 1.0));
   bool fromOutside = h.at.frontFacing;
@@ -80,6 +102,7 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
   bool thin = (m.flags & kMaterialThin) != 0u;
   float ior = max(m.indexOfRefraction, 1.0);
   float eta = thin || fromOutside ? 1.0 / ior : ior;
+  if (CL_HAS(nestedMedia) && media.bounds) eta = iorOfMedium(media.at.before) / iorOfMedium(media.at.beyond);
   float F = fresnelDielectric(cosI, eta);
   vec3 refracted;
   bool passes = refractRay(d, n, eta, refracted);
@@ -98,21 +121,58 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
     mirrorWeight = CL_HAS(reflection) ? vec3(F) : vec3(0.0);
     throughWeight *= 1.0 - F;
   }
+  Dispersed dispersed;
+  dispersed.spreads = false;
+  if (CL_HAS(dispersion) && (frame.optics & kOpticsDispersion) != 0u && bends && !thin) {
+    vec3 here = fromOutside ? vec3(1.0) : spread(ior, bodyOf(h.at.materialId).z);
+    vec3 beyond = fromOutside ? spread(ior, bodyOf(h.at.materialId).z) : vec3(1.0);
+    if (CL_HAS(nestedMedia) && media.bounds) {
+      here = iorsOf(media.at.before);
+      beyond = iorsOf(media.at.beyond);
+    }
+    dispersed = disperse(d, n, cosI, here / beyond);
+  }
   vec3 onward = bends && !thin && passes ? refracted : d;
   if (bends && !thin && !passes) {  // total internal reflection takes what would have passed
     mirrorWeight = classic ? mirrorWeight + throughWeight : mirrorWeight;
     throughWeight = vec3(0.0);
   }
+  if (CL_HAS(dispersion) && dispersed.spreads) {
+    vec3 through = classic ? vec3(m.transmission) : s.transmissionColor * s.opacity;
+    mirrorWeight = classic ? m.mirror * vec3(CL_HAS(reflection)) : dispersed.reflected * vec3(CL_HAS(reflection));
+    if (classic) mirrorWeight += through * vec3(equal(dispersed.passes, vec3(0.0)));
+    throughWeight = through * (classic ? vec3(notEqual(dispersed.passes, vec3(0.0))) : dispersed.passes);
+  }
   throughWeight += vec3(behind);
   uint inside = fromOutside && (m.flags & kMaterialVolume) != 0u ? h.at.materialId : kNoRayNode;
   bool bent = bends && !thin;
+  if (CL_HAS(nestedMedia)) {
+    if (media.bounds) inside = media.at.beyond;
+    if (isHidden(media)) {
+      onward = d;
+      throughWeight = vec3(1.0);
+      mirrorWeight = vec3(0.0);
+    }
+    mirrorWeight *= media.cameraRayKept;
+    throughWeight *= media.cameraRayKept;
+  }
   if (CL_HAS(fog)) {
     mirrorWeight *= fog.fog.clear;
     if (bent) throughWeight *= fog.fog.clear;
     else passed = throughWeight;
   }
-  NewRay through = NewRay(onward, throughWeight, bent ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
-                          bent ? 0.0 : fog.distance, !bent && fog.seenDirectly);
-  return addRays(ray, h, NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false), through);
+  bool bothSides = bent || (CL_HAS(nestedMedia) && ray.medium != kNoRayNode);  // a body is met from inside
+  NewRay through = NewRay(onward, throughWeight, bothSides ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
+                          bent ? 0.0 : fog.distance, !bent && fog.seenDirectly,
+                          bent && media.bounds ? media.at.media : media.here);
+  NewRay mirrored = NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false, media.here);
+  if (CL_HAS(dispersion) && (frame.optics & kOpticsDispersion) != 0u) {
+    vec3 channels = channelsOf(ray, pushed.firstNode + shaded_);
+    mirrored.weight *= channels;
+    through.weight *= channels;
+    passed *= channels;
+    if (dispersed.spreads && !isHidden(media)) return addDispersedRays(ray, h, mirrored, through, dispersed);
+  }
+  return addRays(ray, h, mirrored, through);
 }
 #endif

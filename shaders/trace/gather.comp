@@ -24,6 +24,10 @@ void main() {
   if (children.x != kNoRayNode) own.rgb += reflected.rgb;
   if (children.y != kNoRayNode) {
     own.rgb += transmitted.rgb;
+    if (CL_HAS(dispersion)) {
+      uint count = texelFetch(nodeTexels, int(3u * index + 2u)).w;
+      for (uint k = 1u; k < count; ++k) own.rgb += texelOf(children.y + k, 0u).rgb;
+    }
     own.a += (1.0 - own.a) * transmitted.a;
   }
   if (pushed.firstNode > 0u) {

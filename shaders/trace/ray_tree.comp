@@ -55,14 +55,16 @@ void main() {
   r.own = r.weight = vec3(0.0);
   r.alpha = 0.0;
   r.reflected = r.transmitted = kNoRayNode;
+  r.transmittedCount = 1u;
   if (kBranches) {
     vec4 own = nodeTexel(node, 0u);
-    uvec2 children = texelFetch(nodeTexels, int(3u * node + 2u)).xy;
+    uvec4 children = texelFetch(nodeTexels, int(3u * node + 2u));
     r.own = own.rgb;
     r.alpha = own.a;
     r.weight = nodeTexel(node, 1u).rgb;
     r.reflected = children.x;
     r.transmitted = children.y;
+    if (CL_HAS(dispersion)) r.transmittedCount = children.w;
   }
   if (hit.primitive != kNoHit) {
     HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));

@@ -7,7 +7,8 @@ const bool kManyLights = (specVariant & kVariantManyLights) != 0u;
 // Nodes of the rays that follow, or kNoRayNode.
 struct Children {
   uint reflected;
-  uint transmitted;
+  uint transmitted;       // the first of them
+  uint transmittedCount;  // with dispersion
 };
 
 struct Shaded {
@@ -35,6 +36,7 @@ void storeNode(uint index, RayRecord ray, Shaded shaded) {
   nodes[index].alpha = shaded.alpha;
   nodes[index].reflected = shaded.children.reflected;
   nodes[index].transmitted = shaded.children.transmitted;
+  if (CL_HAS(dispersion)) nodes[index].transmittedCount = shaded.children.transmittedCount;
   if (CL_HAS(absorption) && ray.kind != kRayPrimary) nodes[index].weight *= shaded.weightScale;
 }
 

@@ -15,16 +15,19 @@
 #include "trace/viewer.glsl"
 
 layout(local_size_x = 64) in;
+uint shaded_;  // ray of the level that this lane shades
+
 layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[]; };
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
 #include "trace/results.glsl"
+layout(set = 0, binding = kBindMedia, scalar) buffer MediaBlock { uvec4 mediaOfNodes[]; };
 #include "trace/fogged.glsl"
+#include "trace/media.glsl"
+#include "trace/dispersion.glsl"
 #include "trace/children.glsl"
 
 const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
-
-uint shaded_;  // ray of the level that this lane shades
 
 float lightVisibility(uint lightIndex) {
   if (!CL_HAS(shadows)) return 1.0;
@@ -80,14 +83,20 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   if (!firstBatch) parts.emission = vec3(0.0);
   if (kWritesAovs && ray.kind == kRayPrimary) recordAov(pixel, h, s, parts, firstBatch);
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
-  Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode));
+  Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode, 1u));
   SegmentFog fog = SegmentFog(0.0, true, Fog(1.0, 0.0));
   if (CL_HAS(fog)) fog = fogAtHit(pushed.firstNode + shaded_, ray, hit.t, isInsideBody(ray, h));
+  if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode)
+    shaded.weightScale = absorbed(ray.medium, hit.t * length(ray.direction));
+  SurfaceMedia media = kNoMedia;
+  if (CL_HAS(nestedMedia)) {
+    media = mediaAtHit(pushed.firstNode + shaded_, ray, h, shaded.weightScale);
+    if (isHidden(media)) shaded.value = vec3(shaded.alpha = 0.0);
+    shaded.value *= media.cameraRayKept;
+  }
   vec3 passed = vec3(0.0);
   if (kBranches && firstBatch) {
-    if (CL_HAS(absorption) && ray.medium != kNoRayNode)
-      shaded.weightScale = absorbed(ray.medium, hit.t * length(ray.direction));
-    shaded.children = spawnChildren(ray, h, s, fog, passed);
+    shaded.children = spawnChildren(ray, h, s, fog, media, passed);
   }
   if (CL_HAS(fog)) {
     if (!firstBatch) fog.fog.fogged = 0.0;

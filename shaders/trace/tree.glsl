@@ -32,8 +32,11 @@ RayRecord rayRecordOf(uint node) {
 }
 
 // What the camera sees directly or through surfaces that do not bend light: single-sided surfaces have no back there,
-// as in the rasteriser. Mirrored and refracted rays meet bodies from inside too.
-bool goesStraight(uint kind) { return kind == kRayPrimary || kind == kRayPassThrough; }
+// as in the rasteriser. Mirrored and refracted rays meet bodies from inside too, and so does a camera within one.
+bool goesStraight(uint kind) {
+  bool camera = !CL_HAS(nestedMedia) || frame.cameraMedium == kNoRayNode;
+  return (kind == kRayPrimary && camera) || kind == kRayPassThrough;
+}
 
 const uint kNoRay = 0xffffffffu;
 

@@ -46,13 +46,14 @@ TEST_P(RasterRay, showTheSameObjectsInTheSameLight) {
   const Image rays = render(device(), scene, plainSettings(Method::whitted)).image;
   const Interior insideRaster(raster), insideRays(rays);
   const Steady isSteady(raster, rays);
+  const SteadyThrough isSteadyThrough(scene, rays);
   std::size_t interior = 0, same = 0;
   const auto counts = [&](std::uint32_t x, std::uint32_t y) {
     if (!insideRaster(x, y) || !insideRays(x, y)) return false;
     ++interior;
     if (insideRaster.idAt(x, y) != insideRays.idAt(x, y)) return false;
     ++same;
-    return isSteady(x, y);
+    return isSteady(x, y) && isSteadyThrough(x, y);
   };
   const Difference d = largestDifference(raster, rays, counts);
   ASSERT_GT(interior, 0u);

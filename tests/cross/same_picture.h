@@ -1,6 +1,8 @@
 // What comparisons of raster with rays share: the same geometry for both, and which pixels may be compared.
 #pragma once
 
+#include "effects/material_traits.h"
+#include "structs.h"
 #include "support/render_fixture.h"
 
 namespace crosslight::testing {
@@ -46,6 +48,32 @@ class Steady {
   std::uint32_t width_;
   const std::vector<std::uint32_t>&triangleA_, &triangleB_;
   const std::vector<float>& albedo_;
+};
+
+// The same for what shows through a transparent surface, of which AOVs say nothing: an edge where the picture changes.
+class SteadyThrough {
+ public:
+  SteadyThrough(const Scene& scene, const Image& picture)
+      : scene_(scene), picture_(picture), materials_(picture.find("materialId")->integers) {}
+
+  bool operator()(std::uint32_t x, std::uint32_t y) const {
+    const std::uint32_t material = materials_[std::size_t{y} * picture_.width + x];
+    if (material == shared::kNoId || !isTransparent(scene_.materials[material])) return true;
+    const auto here = pixelAt(picture_, x, y);
+    for (const auto& [u, v] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+      const auto there = pixelAt(picture_, u, v);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (std::abs(there[c] - here[c]) > kEdge) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr float kEdge = 0.05f;  // more than light changes in a pixel of the scenes
+  const Scene& scene_;
+  const Image& picture_;
+  const std::vector<std::uint32_t>& materials_;
 };
 
 }  // namespace crosslight::testing

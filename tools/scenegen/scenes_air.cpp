@@ -1,4 +1,4 @@
-// Scenes of what fills the space between things: fog.
+// Scenes of what fills the space between things: fog; and of bodies that light goes through.
 #include "scenegen/meshes.h"
 #include "scenegen/parts.h"
 #include "scenegen/registry.h"
@@ -45,10 +45,60 @@ void fogExp2(GltfBuilder& gltf) {
   ballsInFog(gltf, std::move(fog));
 }
 
+void addFloor(GltfBuilder& gltf, const dvec3& color) {
+  const int floor = gltf.addMaterial(matte("floor", color));
+  const Primitive grid = withoutUv(gridMesh(dvec3(0.0), {3.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 24));
+  gltf.addRoot(meshNode("floor", gltf.addMesh("floor", {{gltf.addGeometry(grid), floor}})));
+}
+
+Json bodyMaterial(const char* name, const dvec3& tint, double ior, int priority) {
+  Json material = glassMaterial(name, tint, ior);
+  material["extensions"]["CROSSLIGHT_materials_dielectric"]["priority"] = priority;
+  return material;
+}
+
+// A block of water with a ball of ice that sticks out of it, and a ball of glass within.
+void nestedMedia(GltfBuilder& gltf) {
+  addFloor(gltf, {0.45, 0.45, 0.47});
+  const int red = gltf.addMaterial(paint("red", {0.75, 0.15, 0.12}));
+  const int water = gltf.addMaterial(bodyMaterial("water", dvec3(1.0), 1.33, 1));
+  const int ice = gltf.addMaterial(bodyMaterial("ice", dvec3(1.0), 1.31, 2));
+  const int glass = gltf.addMaterial(bodyMaterial("glass", dvec3(1.0), 1.5, 3));
+  gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.4, 0.0, 0.0}}, red, {0.5, 0.4, -1.9}));
+  gltf.addRoot(shapeNode(gltf, "water", {.kind = ShapeKind::box, .params = {2.2, 1.6, 1.4}}, water, {0.0, 0.81, 0.0}));
+  gltf.addRoot(shapeNode(gltf, "ice", {.params = {0.5, 0.0, 0.0}}, ice, {-0.45, 1.3, 0.1}));
+  gltf.addRoot(shapeNode(gltf, "glass", {.params = {0.45, 0.0, 0.0}}, glass, {0.5, 0.7, 0.0}));
+  addPointLight(gltf, "key", {-3.0, 5.0, 4.0}, {.color = dvec3(0.9)});
+  addCamera(gltf, {.eye = {0.6, 2.2, 5.4}, .target = {0.0, 0.85, 0.0}, .yFovDegrees = 34.0});
+  setAtmosphere(gltf, 0.15, {0.09, 0.11, 0.14});
+}
+
+// White bars behind a block and a ball of flint with as much dispersion as no glass has: fringes at every edge.
+void dispersion(GltfBuilder& gltf) {
+  addFloor(gltf, {0.05, 0.05, 0.06});
+  const int white = gltf.addMaterial(matte("white", {0.9, 0.9, 0.9}));
+  for (int i = 0; i < 9; ++i) {
+    gltf.addRoot(shapeNode(gltf, "bar " + std::to_string(i),
+                           {.kind = ShapeKind::box, .params = {0.14, 1.8, 0.1}, .segments = 3}, white,
+                           {-2.0 + 0.5 * i, 0.9, -1.6}));
+  }
+  Json flint = glassMaterial("flint", dvec3(1.0), 1.7);
+  flint["extensions"]["KHR_materials_dispersion"]["dispersion"] = 2.0;
+  const int material = gltf.addMaterial(std::move(flint));
+  gltf.addRoot(shapeNode(gltf, "ball", {.params = {0.7, 0.0, 0.0}}, material, {-0.8, 0.71, 0.4}));
+  gltf.addRoot(shapeNode(gltf, "block", {.kind = ShapeKind::box, .params = {0.9, 1.2, 0.5}, .segments = 3}, material,
+                         {0.95, 0.61, 0.3}));
+  addPointLight(gltf, "key", {-2.0, 4.0, 5.0}, {.color = dvec3(1.0)});
+  addCamera(gltf, {.eye = {0.5, 1.3, 5.6}, .target = {0.0, 0.75, 0.0}, .yFovDegrees = 42.0});
+  setAtmosphere(gltf, 0.2, {0.02, 0.02, 0.03});
+}
+
 constexpr SceneRow kRows[] = {
     {"feature/fog_linear", "fog that grows from start to end", fogLinear},
     {"feature/fog_exp", "fog e^-(density d)", fogExp},
     {"feature/fog_exp2", "fog e^-(density d)^2", fogExp2},
+    {"feature/dispersion", "bodies of glass that bend every color by its own index", dispersion},
+    {"feature/nested_media", "ice and glass that overlap water, kept apart by priority", nestedMedia},
 };
 
 }  // namespace

@@ -77,6 +77,12 @@ const std::vector<Carrier>& carriers() {
          return file({{"materials", {Json::object()}}, {"nodes", {{{"extensions", {{"CROSSLIGHT_node_shape", e}}}}}}});
        },
        {{"kind", "sphere"}, {"radius", 1}, {"height", 2}, {"size", {1, 2, 3}}, {"tubeRadius", 0.5}, {"material", 0}}},
+      {"CROSSLIGHT_materials_dielectric",
+       "/materials/0/extensions/CROSSLIGHT_materials_dielectric",
+       [=](const Json& e) {
+         return file({{"materials", {{{"extensions", {{"CROSSLIGHT_materials_dielectric", e}}}}}}});
+       },
+       {{"priority", 3}}},
       {"CROSSLIGHT_materials_displacement",
        "/materials/0/extensions/CROSSLIGHT_materials_displacement",
        [=](const Json& e) {

@@ -138,7 +138,9 @@ TEST(GltfMaterial, KhronosExtensionsAreRead) {
          {"KHR_materials_ior", {{"ior", 1.25}}},
          {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
          {"KHR_materials_volume",
-          {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 0.25}}}}}}},
+          {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 0.25}}}},
+         {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
+         {"CROSSLIGHT_materials_dielectric", {{"priority", 3}}}}}},
       {{"extensions", {{"KHR_materials_unlit", Json::object()}, {"KHR_materials_volume", Json::object()}}}},
       {{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}}};
   const Scene scene = file.load();
@@ -149,6 +151,9 @@ TEST(GltfMaterial, KhronosExtensionsAreRead) {
   EXPECT_TRUE(scene.materials[0].hasVolume);
   EXPECT_EQ(scene.materials[0].attenuationDistance, 2.0f);
   EXPECT_EQ(scene.materials[0].attenuationColor, glm::vec3(1, 0.5f, 0.25f));
+  EXPECT_EQ(scene.materials[0].dispersion, 0.5f);
+  EXPECT_EQ(scene.materials[0].priority, 3);
+  EXPECT_EQ(scene.materials[1].priority, std::nullopt);
   EXPECT_EQ(scene.materials[1].model, IlluminationModel::unlit);
   EXPECT_FALSE(scene.materials[1].hasVolume);  // thickness 0 is a thin wall
   EXPECT_EQ(scene.materials[2].indexOfRefraction, 0.0f);
