@@ -52,6 +52,7 @@ class Analysis {
     sides();
     whatRaysDo();
     bodies();
+    shadowsInColor();
     air();
     promote();
     return std::move(plan_);
@@ -219,6 +220,13 @@ class Analysis {
     } else {
       add(rule.effect, rule.name, false, traced_ ? "not asked for" : "not simulated by raster methods");
     }
+  }
+
+  void shadowsInColor() {
+    const bool on = plan_.has(Effect::shadows) && plan_.has(Effect::transparency) && settings_.coloredShadows;
+    add(Effect::coloredShadows, "coloredShadows", on,
+        !settings_.coloredShadows ? "not asked for"
+                                  : (on ? "asked for, and something lets light pass" : "nothing lets light pass"));
   }
 
   void air() {

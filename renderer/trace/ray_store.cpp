@@ -32,6 +32,11 @@ gpu::Buffer wordsOf(const gpu::Device& device, const char* name, std::uint64_t c
   return {device, name, std::max<std::uint64_t>(count, 1) * sizeof(std::uint32_t), gpu::useStorage | gpu::useIndirect};
 }
 
+// One per light of the batch and one for the environment; with shadows in color for each channel.
+std::uint64_t visibilitiesOf(const RayStoreSize& size, std::uint32_t capacity, std::uint32_t batch) {
+  return std::uint64_t{capacity} * (batch + (size.environment ? 1 : 0)) * (size.coloredShadows ? 3 : 1);
+}
+
 }  // namespace
 
 RayStore::RayStore(const gpu::Device& device, const RayStoreSize& size, const HitClasses& classes)
@@ -45,8 +50,7 @@ RayStore::RayStore(const gpu::Device& device, const RayStoreSize& size, const Hi
       queues(wordsOf(device, "hit queues", classes.classes.empty() ? 0 : kHitClasses * (kQueueWords + capacity))),
       hitClasses(gpu::Buffer::of(device, "hit classes", classes.ofMaterial, gpu::useUniformTexel)),
       media(listOf<glm::uvec4>(device, "bodies that rays are in", size.nestedMedia ? capacity : 1)),
-      visibility(listOf<float>(device, "visibility",
-                               size.shadows ? std::uint64_t{capacity} * (batch + (size.environment ? 1 : 0)) : 1)) {}
+      visibility(listOf<float>(device, "visibility", size.shadows ? visibilitiesOf(size, capacity, batch) : 1)) {}
 
 void RayStore::bind(gpu::BindingSet& set) const {
   set.set(kBindRays, rays);

@@ -16,6 +16,7 @@ struct RayStoreSize {
   bool branches = false;  // nodes are kept
   bool environment = false;
   bool nestedMedia = false;
+  bool coloredShadows = false;
   bool shadows = false;
 };
 

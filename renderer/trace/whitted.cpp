@@ -33,6 +33,7 @@ class Whitted final : public Technique {
         buffers_(buffers),
         branches_(crosslight::branches(plan)),
         nestedMedia_(plan.has(Effect::nestedMedia)),
+        coloredShadows_(plan.has(Effect::coloredShadows)),
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
         classes_(kernels_->classes().classes),
@@ -94,6 +95,7 @@ class Whitted final : public Technique {
             .branches = branches_,
             .environment = scene_.scene().atmosphere.environment.present(),
             .nestedMedia = nestedMedia_,
+            .coloredShadows = coloredShadows_,
             .shadows = !choice_.shadow.empty()};
   }
 
@@ -249,10 +251,12 @@ class Whitted final : public Technique {
   void traceShadows(TracePush push, std::uint32_t variant) {
     for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
       const Light& light = scene_.scene().lights[push.firstLight + push.lightInBatch];
-      if (isArea(light) && !choice_.areaShadow.empty())
-        dispatch({choice_.areaShadow, variant}, push, "soft shadow");
-      else
-        dispatch({choice_.shadow, variant}, choice_.shadowRest, push, "shadow");
+      for (push.shadowChannel = 0; push.shadowChannel < shadowChannels(); ++push.shadowChannel) {
+        if (isArea(light) && !choice_.areaShadow.empty())
+          dispatch({choice_.areaShadow, variant}, push, "soft shadow");
+        else
+          dispatch({choice_.shadow, variant}, choice_.shadowRest, push, "shadow");
+      }
     }
   }
 
@@ -260,8 +264,11 @@ class Whitted final : public Technique {
   void traceEnvironment(TracePush push, std::uint32_t variant) {
     if (push.firstLight > 0 || !scene_.scene().atmosphere.environment.present()) return;
     push.lightInBatch = push.lightCount;
-    dispatch({choice_.environmentShadow, variant}, push, "soft shadow");
+    for (push.shadowChannel = 0; push.shadowChannel < shadowChannels(); ++push.shadowChannel)
+      dispatch({choice_.environmentShadow, variant}, push, "soft shadow");
   }
+
+  std::uint32_t shadowChannels() const { return coloredShadows_ && settings_.coloredShadows ? 3 : 1; }
 
   void gather(const std::vector<TracePush>& levels, Tally& tally) {
     if (!branches_) return;
@@ -294,7 +301,7 @@ class Whitted final : public Technique {
   GpuScene& scene_;
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
-  bool branches_, nestedMedia_;
+  bool branches_, nestedMedia_, coloredShadows_;
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;
   const std::vector<HitClass>& classes_;

@@ -95,6 +95,7 @@ void GpuScene::placeCamera() {
   cameraMedium_ = kNoId;
   optics_ = 0;
   if (settings_.dispersion == Dispersion::rgb) optics_ |= kOpticsDispersion;
+  if (settings_.coloredShadows) optics_ |= kOpticsColoredShadows;
   if (reasonForNestedMedia(scene_, settings_).empty()) return;
   optics_ |= kOpticsNestedMedia;
   constexpr std::size_t kMostMaterials = 0xffff;  // sixteen bits, with none

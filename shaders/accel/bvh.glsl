@@ -60,6 +60,9 @@ PrimitiveTexels fetchPrimitive(uint slot) {
 // Share of light that passes: 0 blocks, 1 is not there.
 float passedByTriangle(uint triangle, uint drawId, float b1, float b2);
 float passedByShape(uint drawId, vec2 uv);
+// Shadows in color: every crossing of a surface that lets light pass counts; `leaves`: the ray meets its back.
+bool countsCrossings();
+void noteCrossing(uint drawId, bool leaves, Ray ray, float t);
 bool maskCutsTriangle(uint triangle, uint drawId, float b1, float b2);
 
 // Ties (coplanar duplicates) go to the lowest id, so the image does not depend on the tree.
@@ -185,8 +188,11 @@ void considerLeaf(Ray ray, RayShear shear, bool cutBackFaces, inout Closest best
 float lightPassedFetched(PrimitiveTexels p, uint slot, Ray ray, RayShear shear) {
   TriangleHit h = hitTriangle(ray.origin, shear, p.v0, p.v1, p.v2, ray.tMin, ray.tMax);
   float passed = 0.0;
-  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit)
+  if ((CL_HAS(alphaMask) || CL_HAS(transparency)) && (p.flags & kPrimitiveMayPass) != 0u && h.hit) {
     passed = passedByTriangle(p.id, p.drawId, h.b1, h.b2);
+    if (countsCrossings() && !CL_IS_LEFT(p, slot, ray))
+      noteCrossing(p.drawId, h.back != ((p.flags & kPrimitiveFlipsWinding) != 0u), ray, h.t);
+  }
   return h.hit && !CL_IS_LEFT(p, slot, ray) ? passed : 1.0;
 }
 

@@ -78,12 +78,28 @@ bool mayPass(ShapeRecord s) {
   return (CL_HAS(alphaMask) || CL_HAS(transparency)) && (s.flags & kPrimitiveMayPass) != 0u;
 }
 
+// A torus is crossed four times.
+const int kMostCrossings = 4;
+
+float passedAtHit(ShapeRecord s, ShapeHit h, Ray ray) {
+  if (countsCrossings()) noteCrossing(s.drawId, dot(renderNormal(s, h.n), ray.direction) > 0.0, ray, h.t);
+  return passedByShape(s.drawId, h.uv);
+}
+
 float lightPassedShape(uint shape, Ray ray) {
   ShapeRecord s = shapeOf(shape);
   ShapeHit h = hitShapeInstance(s, ray);
   float passed = 0.0;
-  if (mayPass(s)) passed = passedByShape(s.drawId, h.uv);
-  return h.hit ? passed : 1.0;
+  if (mayPass(s) && h.hit) passed = passedAtHit(s, h, ray);
+  passed = h.hit ? passed : 1.0;
+  if (countsCrossings()) {
+    for (int k = 1; k < kMostCrossings && h.hit && passed > 0.0; ++k) {
+      ray.tMin = h.t;  // the same root again is not greater than itself
+      h = hitShapeInstance(s, ray);
+      if (h.hit) passed *= passedAtHit(s, h, ray);
+    }
+  }
+  return passed;
 }
 
 float lightPassedUnbounded(Ray ray) {
@@ -92,7 +108,7 @@ float lightPassedUnbounded(Ray ray) {
     ShapeRecord shape = shapeOf(i);
     ShapeHit h = hitUnboundedShape(shape, ray);
     float through = 0.0;
-    if (mayPass(shape)) through = passedByShape(shape.drawId, h.uv);
+    if (mayPass(shape) && h.hit) through = passedAtHit(shape, h, ray);
     if (h.hit) passed *= through;
   }
   return passed;

@@ -5,4 +5,4 @@
 
 layout(location = 0) out vec4 outColor;
 
-void main() { outColor = vec4(0.0, 0.0, 0.0, 1.0 - passedLight(materialOf(pushed.materialId), alphaHere())); }
+void main() { outColor = vec4(0.0, 0.0, 0.0, 1.0 - passedLight(materialOf(pushed.materialId), alphaHere(), 1.0)); }

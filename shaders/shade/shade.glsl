@@ -16,7 +16,7 @@ float lightVisibility(uint lightIndex);
 
 // How much of the environment arrives; the argument is the number of lights in the batch.
 #ifndef CL_ENVIRONMENT_VISIBILITY
-#define CL_ENVIRONMENT_VISIBILITY(lightCount) 1.0
+#define CL_ENVIRONMENT_VISIBILITY(lightCount) vec3(1.0)
 #endif
 
 // What all lights of a batch bring to a point, before the surface's colors.
@@ -41,7 +41,7 @@ LightSums lobeSums(LightRecord light, Lobe lobe) {
   return LightSums(vec3(0.0), light.diffuse * lobe.diffuse, light.specular * lobe.specular, light.specular * lobe.fresnel);
 }
 
-void addEnvironment(SurfacePoint s, vec3 wo, float visible, inout LightSums sums) {
+void addEnvironment(SurfacePoint s, vec3 wo, vec3 visible, inout LightSums sums) {
   LightSums all = environmentSums(s, wo);
   sums.diffuse += visible * all.diffuse;
   sums.specular += visible * all.specular;

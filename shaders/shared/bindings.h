@@ -26,7 +26,8 @@
   X(18, environment)             \
   X(19, softShadows)             \
   X(20, dispersion)              \
-  X(21, nestedMedia)
+  X(21, nestedMedia)             \
+  X(22, coloredShadows)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
@@ -203,7 +204,8 @@ struct TracePush {
   uint firstInTiles;  // generate: first ray of the chunk, in the band's tile order
   uint nodeCapacity;
   uint maxDepth;
-  uint hitClass;  // whose queue is worked on
+  uint hitClass;       // whose queue is worked on
+  uint shadowChannel;  // shadow: 0..2, the color whose share is looked for
 };
 struct FilmPush {
   uint pixelCount;

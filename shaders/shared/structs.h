@@ -174,6 +174,7 @@ CL_SIZE(FrameRecord, 272)
 // What changes how light goes through bodies: by the scene or by request, so a pipeline with everything must ask.
 CL_CONST uint kOpticsNestedMedia = 1u;
 CL_CONST uint kOpticsDispersion = 2u;
+CL_CONST uint kOpticsColoredShadows = 4u;
 CL_CONST uint kFogNone = 0u;
 CL_CONST uint kFogLinear = 1u;
 CL_CONST uint kFogExp = 2u;

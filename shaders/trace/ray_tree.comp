@@ -6,6 +6,7 @@
 #include "shared/ray_tree_records.h"
 #define CL_LIGHTS_ONLY  // the environment is none of the lights that are listed
 #include "trace/tree.glsl"
+#include "trace/seen_light.glsl"
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"
 #include "trace/camera.glsl"
@@ -15,11 +16,14 @@ layout(set = 0, binding = kBindNodeTexels) uniform usamplerBuffer nodeTexels;
 layout(set = 0, binding = kBindRayTree, scalar) writeonly buffer RayTreeBlock { RayTreeRecord records[]; };
 layout(set = 0, binding = kBindRayTreeLights, scalar) writeonly buffer RayTreeLightBlock { RayTreeLightRecord lit[]; };
 
-uint shaded_;  // ray of the level
 uint batchLight_;
 
-float lightVisibility(uint lightIndex) {
-  return CL_HAS(shadows) ? visibilities[batchLight_ * pushed.nodeCount + shaded_] : 1.0;
+float lightVisibility(uint lightIndex) { return seenVisibility(batchLight_); }
+
+// Of one number, where shadows have colors: what passes of the color that passes best.
+float shownVisibility() {
+  if (!seesInColor()) return seenVisibility(batchLight_);
+  return max(max(visibilityOf(batchLight_, 0u), visibilityOf(batchLight_, 1u)), visibilityOf(batchLight_, 2u));
 }
 
 vec4 nodeTexel(uint node, uint part) { return uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + part))); }
@@ -30,7 +34,7 @@ void recordLights(uint node, RayRecord ray, SurfacePoint s, bool interior) {
     uint light = pushed.firstLight + batchLight_;
     ShadedParts parts = compose(s, illuminate(s, wo, light, 1u), vec3(0.0));
     lit[light * pushed.nodeCapacity + node] =
-        RayTreeLightRecord(parts.ambient + parts.diffuse + parts.specular, interior ? -1.0 : lightVisibility(0u));
+        RayTreeLightRecord(parts.ambient + parts.diffuse + parts.specular, interior ? -1.0 : shownVisibility());
   }
 }
 

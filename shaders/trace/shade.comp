@@ -6,8 +6,9 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/scene_bindings.glsl"
-#define CL_ENVIRONMENT_VISIBILITY(lightCount) lightVisibility(lightCount)  // it stands behind those of the lights
+#define CL_ENVIRONMENT_VISIBILITY(lightCount) environmentVisibility(lightCount)
 #include "trace/tree.glsl"
+#include "trace/seen_light.glsl"
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"
 #include "trace/camera.glsl"
@@ -15,8 +16,6 @@
 #include "trace/viewer.glsl"
 
 layout(local_size_x = 64) in;
-uint shaded_;  // ray of the level that this lane shades
-
 layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[]; };
 layout(set = 0, binding = kBindRayNodes, scalar) buffer NodeBlock { RayNode nodes[]; };
 layout(set = 0, binding = kBindSampleColor, scalar) buffer SampleBlock { vec4 samples[]; };
@@ -29,11 +28,7 @@ layout(set = 0, binding = kBindMedia, scalar) buffer MediaBlock { uvec4 mediaOfN
 
 const bool kWritesAovs = (specVariant & kVariantAovs) != 0u;
 
-float lightVisibility(uint lightIndex) {
-  if (!CL_HAS(shadows)) return 1.0;
-  if (CL_HAS(environment) && lightIndex >= pushed.lightCount && frame.lightSamples == 0u) return 1.0;
-  return visibilities[lightIndex * pushed.nodeCount + shaded_];
-}
+float lightVisibility(uint lightIndex) { return seenVisibility(lightIndex); }
 
 void recordAov(uint pixel, HitSurface h, SurfacePoint s, ShadedParts parts, bool firstBatch) {
   AovRecord aov = aovs[pixel];

@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/scene_bindings.glsl"
 #include "trace/tree.glsl"
+#define CL_SHADOW_CHANNEL pushed.shadowChannel
 #include "trace/hit_surface.glsl"
 #include "shade/shadow_ray.glsl"
 #include "trace/camera.glsl"
@@ -32,8 +33,8 @@ void main() {
   uint shapes = kFewShapes && CL_HAS(shapes) ? shapesAhead(to.counts ? to.ray : kNoShadowRay.ray) : 0u;
   float visible = 1.0;
   if (to.counts) visible = lightPassed(to.ray, shapes);
-  if (inLevel) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = visible;
+  if (inLevel) visibilities[visibilityPlace(pushed.lightInBatch, ray, pushed.shadowChannel)] = visible;
   bool counted = (specVariant & kVariantRest) == 0u;  // else by the packet
-  uint count = subgroupAdd(to.counts && counted ? 1u : 0u);
+  uint count = subgroupAdd(to.counts && counted && pushed.shadowChannel == 0u ? 1u : 0u);
   if (subgroupElect() && count > 0u) atomicAdd(counters[kCounterShadowRays], count);
 }

@@ -7,6 +7,7 @@
 #include "shared/scene_bindings.glsl"
 #include "math/random.glsl"
 #include "trace/tree.glsl"
+#define CL_SHADOW_CHANNEL pushed.shadowChannel
 #include "trace/hit_surface.glsl"
 #include "shade/shadow_ray.glsl"
 #include "shade/area_sample.glsl"
@@ -51,7 +52,7 @@ void main() {
   bool inLevel = ray != kNoRay;
   uint traced;
   float visible = visibleShare(inLevel ? ray : 0u, inLevel, traced);
-  if (inLevel) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = visible;
-  uint count = subgroupAdd(traced);
+  if (inLevel) visibilities[visibilityPlace(pushed.lightInBatch, ray, pushed.shadowChannel)] = visible;
+  uint count = subgroupAdd(pushed.shadowChannel == 0u ? traced : 0u);
   if (subgroupElect() && count > 0u) atomicAdd(counters[kCounterShadowRays], count);
 }

@@ -31,7 +31,7 @@ void main() {
   if (!searchBlockers()) giveUp(spreadGroup());
   [[unroll]] for (int k = 0; k < kRaysPerLane; ++k) {
     uint ray = rayAtPlace(placeOf(k));
-    if (ray != kNoRay) visibilities[pushed.lightInBatch * pushed.nodeCount + ray] = blocked_[k] ? 0.0 : 1.0;
+    if (ray != kNoRay) visibilities[visibilityPlace(pushed.lightInBatch, ray, pushed.shadowChannel)] = blocked_[k] ? 0.0 : 1.0;
   }
   traced += subgroupShuffleXor(traced, 1u);
   traced += subgroupShuffleXor(traced, 2u);

@@ -11,6 +11,13 @@ layout(set = 0, binding = kBindHits, scalar) writeonly buffer HitBlock { HitReco
 layout(set = 0, binding = kBindHitTexels) uniform usamplerBuffer hitTexels;
 layout(set = 0, binding = kBindVisibility, scalar) buffer VisibilityBlock { float visibilities[]; };
 
+// Of a light of the batch, or behind them the environment, and a ray of the level; with shadows in color, of a channel.
+uint visibilityPlace(uint light, uint ray, uint channel) {
+  uint planes = pushed.lightCount + (frame.environmentSize.x != 0u ? 1u : 0u);
+  uint plane = CL_HAS(coloredShadows) ? channel * planes + light : light;
+  return plane * pushed.nodeCount + ray;
+}
+
 layout(set = 0, binding = kBindRest, scalar) buffer RestBlock { uint rest[]; };
 layout(set = 0, binding = kBindQueues, scalar) buffer QueueBlock { uint queues[]; };
 

@@ -254,5 +254,41 @@ TEST(Dispersion, losesNoLight) {
   EXPECT_GT(spread, 20u);
 }
 
+// A sun from above through a pane, or through two units of glass, onto a wall: the color of the shadow is theirs.
+TEST(ColoredShadows, areThoseOfTheGlassThatLightGoesThrough) {
+  const auto wallBehind = [](bool solid, bool colored) {
+    Stage stage;
+    Material white = emitter(0.0f);
+    white.classic.diffuseFactor = glm::vec3(0.8f);
+    stage.addWall(-5.0, stage.add(white));
+    Material pane = glass(1.5f);
+    pane.baseColorFactor = {0.9f, 0.5f, 0.1f, 1.0f};
+    pane.hasVolume = solid;
+    pane.attenuationColor = {0.5f, 0.25f, 1.0f};
+    pane.attenuationDistance = 2.0f;
+    const int material = stage.add(pane);
+    if (solid) {
+      stage.addShape(ShapeKind::box, {2, 2, 2, 0}, {0, 4, -4}, material);
+    } else {
+      stage.addShape(ShapeKind::disk, {1, 0, 0, 0}, {0, 3, -4}, material);
+    }
+    Light sun;
+    sun.type = LightType::directional;
+    sun.classic = ClassicLight{};
+    sun.worldDirection = glm::normalize(glm::dvec3(0, -4, -1));
+    stage.scene.lights.push_back(sun);
+    RenderSettings s = settingsFor(Method::whitted, 9, 9);
+    s.coloredShadows = colored;
+    return pixelAt(render(device(), stage.scene, s).image, 4, 4);
+  };
+  const double lit = 0.8 / std::sqrt(17.0), way = 2.0 * std::sqrt(17.0) / 4.0;
+  const double tint[3] = {0.9, 0.5, 0.1}, left[3] = {0.5, 0.25, 1.0};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(wallBehind(false, false)[c], lit, kRounding) << c;
+    EXPECT_NEAR(wallBehind(false, true)[c], lit * tint[c], kRounding) << c;
+    EXPECT_NEAR(wallBehind(true, true)[c], lit * tint[c] * tint[c] * std::pow(left[c], way / 2.0), kRounding) << c;
+  }
+}
+
 }  // namespace
 }  // namespace crosslight::testing

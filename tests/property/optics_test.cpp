@@ -1,4 +1,4 @@
-// What is asked for by option (dispersion) and bodies within bodies: what is specialized, how rays
+// What is asked for by option (dispersion, shadows in color) and bodies within bodies: what is specialized, how rays
 // are traced and in which order changes no bit; the option does.
 #include "support/render_fixture.h"
 
@@ -13,6 +13,8 @@ struct OpticsCase {
 constexpr OpticsCase kCases[] = {
     {"feature/dispersion", [](RenderSettings& s) { s.dispersion = Dispersion::rgb; },
      [](RenderSettings& s) { s.dispersion = Dispersion::off; }},
+    {"feature/colored_shadow", [](RenderSettings& s) { s.coloredShadows = true; },
+     [](RenderSettings& s) { s.coloredShadows = false; }},
     {"feature/nested_media", [](RenderSettings&) {}, [](RenderSettings& s) { s.refraction = false; }},
 };
 

@@ -93,11 +93,39 @@ void dispersion(GltfBuilder& gltf) {
   setAtmosphere(gltf, 0.2, {0.02, 0.02, 0.03});
 }
 
+Json coloredGlass(const char* name, const dvec3& tint, const dvec3& left) {
+  Json glass = glassMaterial(name, tint, 1.5);
+  glass["extensions"]["KHR_materials_volume"]["attenuationColor"] = listOf(left);
+  glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 1.0;
+  return glass;
+}
+
+// Bodies that color light on their way, as a shape and as a mesh, and a pane that tints it: shadows of their colors.
+void coloredShadow(GltfBuilder& gltf) {
+  addFloor(gltf, {0.75, 0.75, 0.75});
+  const int red = gltf.addMaterial(coloredGlass("red glass", dvec3(1.0), {0.8, 0.08, 0.05}));
+  const int blue = gltf.addMaterial(coloredGlass("blue glass", dvec3(1.0), {0.1, 0.2, 0.9}));
+  Json pane = glassMaterial("green pane", {0.2, 0.8, 0.3}, 1.5);
+  pane["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0.0;
+  pane["doubleSided"] = true;
+  const int green = gltf.addMaterial(std::move(pane));
+  gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.5, 0.0, 0.0}}, red, {-1.1, 0.51, 0.2}));
+  Json ball = shapeNode(gltf, "blue ball", {.params = {0.5, 0.0, 0.0}}, blue, {0.2, 0.51, -0.3});
+  ball.erase("extensions");  // its triangles are met
+  gltf.addRoot(std::move(ball));
+  const Primitive square = withoutUv(gridMesh({1.0, 0.6, 0.6}, {0.36, 0.0, -0.36}, {0.0, 0.55, 0.0}, 1));
+  gltf.addRoot(meshNode("pane", gltf.addMesh("pane", {{gltf.addGeometry(square), green}})));
+  addDirectionalLight(gltf, "sun", {-0.75, -1.0, -0.35}, {.color = dvec3(0.9)});
+  addCamera(gltf, {.eye = {0.4, 3.2, 4.6}, .target = {-0.1, 0.3, 0.0}, .yFovDegrees = 44.0});
+  setAtmosphere(gltf, 0.15, {0.09, 0.11, 0.14});
+}
+
 constexpr SceneRow kRows[] = {
     {"feature/fog_linear", "fog that grows from start to end", fogLinear},
     {"feature/fog_exp", "fog e^-(density d)", fogExp},
     {"feature/fog_exp2", "fog e^-(density d)^2", fogExp2},
     {"feature/dispersion", "bodies of glass that bend every color by its own index", dispersion},
+    {"feature/colored_shadow", "light through colored glass: bodies and a pane", coloredShadow},
     {"feature/nested_media", "ice and glass that overlap water, kept apart by priority", nestedMedia},
 };
 
