@@ -118,6 +118,37 @@ const char* nameOf(FogMode mode) {
   return "exp2";
 }
 
+const char* nameOf(SmokeShape shape) {
+  switch (shape) {
+    case SmokeShape::none:
+      return "none";
+    case SmokeShape::everywhere:
+      return "everywhere";
+    case SmokeShape::box:
+      return "box";
+    case SmokeShape::sphere:
+      break;
+  }
+  return "sphere";
+}
+
+std::string smokeLine(const Smoke& s) {
+  const std::string grid =
+      s.densities.empty() ? "even" : fmt::format("{} x {} x {} densities", s.grid[0], s.grid[1], s.grid[2]);
+  return fmt::format("{}, {}, absorption {:g} {:g} {:g}, scattering {:g} {:g} {:g} per unit, anisotropy {:g}",
+                     nameOf(s.shape), grid, s.absorption.x, s.absorption.y, s.absorption.z, s.scattering.x,
+                     s.scattering.y, s.scattering.z, s.anisotropy);
+}
+
+Json smokeJson(const Smoke& s) {
+  if (!hasSmoke(s)) return nullptr;
+  return {{"shape", nameOf(s.shape)},
+          {"absorption", vectorJson(s.absorption)},
+          {"scattering", vectorJson(s.scattering)},
+          {"anisotropy", s.anisotropy},
+          {"grid", s.grid}};
+}
+
 std::string airLine(const Atmosphere& a) {
   if (!hasFog(a)) return "clear";
   const glm::vec3& c = a.fogColor;
@@ -187,6 +218,7 @@ std::string sceneTable(const Scene& scene) {
     text += row("environment", fmt::format("{}, intensity {:g}, turned by {:.4g} degrees",
                                            printable(e.file.filename().string()), e.intensity, degrees(e.rotation)));
   }
+  if (hasSmoke(scene.atmosphere.smoke)) text += row("smoke", smokeLine(scene.atmosphere.smoke));
   text += row("images", fmt::format("{}", scene.images.size()));
   text += row("animations", fmt::format("{}", stats.animations));
   text += row("memory", fmt::format("{:.1f} MiB on the host", static_cast<double>(hostBytesOf(scene)) / (1 << 20)));
@@ -225,6 +257,7 @@ Json sceneJson(const Scene& scene) {
   json["defaultLight"] = scene.defaultLight;
   json["fog"] = fogJson(scene.atmosphere);
   json["environment"] = environmentJson(scene.atmosphere.environment);
+  json["smoke"] = smokeJson(scene.atmosphere.smoke);
   json["cameras"] = json["lights"] = json["materials"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(cameraJson(camera));
   for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));

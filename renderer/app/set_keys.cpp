@@ -38,6 +38,14 @@ const std::vector<SetKey>& setKeys() {
        "refracted rays of bodies with KHR_materials_dispersion: one, or three for red, green and blue",
        {Method::whitted},
        [](RenderSettings& s, std::size_t value) { s.dispersion = static_cast<Dispersion>(value); }},
+      {"smoke-steps",
+       {"32", "8", "16", "64", "128", "256"},
+       "along the part of a ray that lies in smoke",
+       {},
+       [](RenderSettings& s, std::size_t value) {
+         constexpr std::uint32_t kSteps[] = {32, 8, 16, 64, 128, 256};
+         s.smokeSteps = kSteps[value];
+       }},
       {"hit-queues",
        {"auto", "on", "off"},
        "shade hits in queues, one per kind of surface, by kernels made for each; the image is the same",

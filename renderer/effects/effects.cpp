@@ -236,6 +236,9 @@ class Analysis {
         around ? "the scene is lit by the environment " + a.environment.file.filename().string()
                : "the scene has no environment");
     add(Effect::fog, "fog", hasFog(a), hasFog(a) ? "the scene has fog: " + describeFog(a) : "the scene has no fog");
+    const bool smoke = hasSmoke(a.smoke), drawn = settings_.method != Method::wireframe;
+    add(Effect::smoke, "smoke", smoke && drawn,
+        !smoke ? "the scene has no smoke" : (drawn ? "the scene has smoke" : "wireframe draws edges without smoke"));
   }
 
   // Mirrored and refracted rays meet surfaces from behind, which must then be lit from behind.

@@ -14,6 +14,7 @@
 #include "raster/shadow_pass.h"
 #include "raster/strip.h"
 #include "raster/targets.h"
+#include "upload/smoke_check.h"
 
 namespace crosslight {
 
@@ -48,6 +49,7 @@ class Raster final : public Technique {
         stripRows_(rowsPerStrip(settings.width, settings.height, settings.msaa)),
         targets_(device, settings, stripRows_, buffers) {
     CL_CHECK(!buffers.wantsCodes() || canDrawCodes(plan, settings));
+    checkSmokeLoops(device.info(), scene.scene(), plan, settings);
     scene_.bind(set_);
     uniforms_.bind(set_);
     set_.set(kBindAovs, buffers.aovs);

@@ -18,7 +18,7 @@ inline constexpr double kLargestCoordinate = 1e18;
 void readClassicMaterial(const JsonAt& extension, Material& material);
 void readDielectric(const JsonAt& extension, Material& material);
 ClassicLight readClassicLight(const JsonAt& extension);
-Atmosphere readAtmosphere(const JsonAt& extension, const Document& document);
+Atmosphere readAtmosphere(const Source& source, const JsonAt& extension, const Document& document);
 struct NodeShape {
   ShapeKind kind = ShapeKind::sphere;
   glm::vec4 params{0.0f};
@@ -29,6 +29,9 @@ NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount);
 // Reads a texture info by its owner and key; none where the key is missing.
 using TextureReader = std::function<TextureUse(const JsonAt& owner, const char* key)>;
 void readDisplacement(const JsonAt& extension, const TextureReader& texture, Material& material);
+
+// gltf_smoke.cpp
+Smoke readSmoke(const Source& source, const JsonAt& extension);
 
 // gltf_specular_glossiness.cpp: the archived KHR_materials_pbrSpecularGlossiness as metallic-roughness, factors only.
 void readSpecularGlossiness(const JsonAt& extension, Material& material);

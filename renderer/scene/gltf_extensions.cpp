@@ -111,13 +111,14 @@ ClassicLight readClassicLight(const JsonAt& extension) {
   return light;
 }
 
-Atmosphere readAtmosphere(const JsonAt& extension, const Document& document) {
-  extension.onlyKnows({"ambient", "background", "fog", "environment"});
+Atmosphere readAtmosphere(const Source& source, const JsonAt& extension, const Document& document) {
+  extension.onlyKnows({"ambient", "background", "fog", "environment", "smoke"});
   Atmosphere atmosphere;
   atmosphere.ambient = vec3Or(extension, "ambient", atmosphere.ambient, Range::atLeast(0.0));
   atmosphere.background = vec3Or(extension, "background", atmosphere.background, Range::atLeast(0.0));
   if (const auto fog = extension.find("fog")) readFog(*fog, atmosphere);
   if (const auto environment = extension.find("environment")) readEnvironmentOf(*environment, document, atmosphere);
+  if (const auto smoke = extension.find("smoke")) atmosphere.smoke = readSmoke(source, *smoke);
   return atmosphere;
 }
 

@@ -205,7 +205,7 @@ Scene SceneFile::Impl::pose(Scene scene, double timeSeconds) {
     const auto index = static_cast<std::size_t>(sceneIndex);
     scene.name = model->scenes[index].name;
     const auto atmosphere = document.entry("scenes", index).extension("CROSSLIGHT_scene_atmosphere");
-    if (atmosphere) scene.atmosphere = readAtmosphere(*atmosphere, document);
+    if (atmosphere) scene.atmosphere = readAtmosphere(source, *atmosphere, document);
   }
   fillStats(*model, document, scene);
   fillBoundsAndCounts(scene);

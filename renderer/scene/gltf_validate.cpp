@@ -36,6 +36,7 @@ constexpr auto kKnownExtensions = std::to_array<std::string_view>({
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 });

@@ -186,6 +186,25 @@ struct Environment {
   bool present() const { return map != nullptr; }
 };
 
+enum class SmokeShape { none, everywhere, box, sphere };
+
+// A medium that absorbs and scatters light, along the world's axes.
+struct Smoke {
+  SmokeShape shape = SmokeShape::none;
+  glm::dvec3 center{0.0};      // world
+  glm::dvec3 size{1.0};        // edges of the box
+  double radius = 1.0;         // of the sphere
+  glm::vec3 absorption{0.0f};  // per scene unit, where the density is 1
+  glm::vec3 scattering{0.0f};
+  float anisotropy = 0.0f;  // g of Henyey and Greenstein 1941, in (-1, 1): positive scatters forwards
+  std::array<std::uint32_t, 3> grid{0, 0, 0};
+  std::vector<float> densities;  // x first, at the centers of the box's cells; none: 1 all over
+};
+
+inline bool hasSmoke(const Smoke& s) {
+  return s.shape != SmokeShape::none && (s.absorption != glm::vec3(0.0f) || s.scattering != glm::vec3(0.0f));
+}
+
 // CROSSLIGHT_scene_atmosphere
 struct Atmosphere {
   Environment environment;
@@ -195,6 +214,7 @@ struct Atmosphere {
   glm::vec3 fogColor{0.5f};
   double fogStart = 0.0, fogEnd = 1.0;  // scene units, linear
   double fogDensity = 1.0;              // per scene unit, exp and exp2
+  Smoke smoke;
 };
 
 // Fog without density hides nothing, at any distance.

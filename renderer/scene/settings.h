@@ -70,6 +70,7 @@ struct RenderSettings {
   bool clampVertexColors = false;           // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped
   Dispersion dispersion = Dispersion::off;  // whitted
   bool coloredShadows = false;              // whitted: transparent things tint what passes through them
+  std::uint32_t smokeSteps = 32;            // along the part of a ray that lies in smoke
   std::uint64_t maxLayerBytes = 1u << 28;   // raster: for transparent fragments; more than fit are drawn in fewer rows
   bool allEffects = false;                  // compile and run everything instead of what the scene calls for
   bool allowNonfinite = false;              // NaN and Inf in the result are reported but do not fail the run

@@ -118,6 +118,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
     choice.areaShadow = "shadow_area.comp";
     choice.environmentShadow = "shadow_environment.comp";
   }
+  if (plan.has(Effect::smoke)) choice.smoke = "smoke.comp";
   if (branches(plan)) {
     choice.gather = "gather.comp";
     if (triangles && settings.maxDepth > 0) choice.secondary = packets ? "intersect_quad.comp" : "intersect.comp";
@@ -192,7 +193,8 @@ KernelPipelines::KernelPipelines(const gpu::Device& device, const Scene& scene, 
       layout_(layoutOn(device, choice_, (variant_ & kVariantTiles) != 0)),
       warmUp_(device, layout_) {
   const std::uint32_t queued = classes_.classes.empty() ? 0 : kVariantQueue;
-  for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.gather}) begin({name});
+  for (const std::string& name : {choice_.camera, choice_.shapes, choice_.secondary, choice_.smoke, choice_.gather})
+    begin({name});
   begin({choice_.shadow, queued});
   if (std::any_of(scene.lights.begin(), scene.lights.end(), isArea)) begin({choice_.areaShadow, queued});
   if (scene.atmosphere.environment.present()) begin({choice_.environmentShadow, queued});

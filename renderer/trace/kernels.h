@@ -38,6 +38,7 @@ struct KernelChoice {
   std::string shadowRest;
   std::string environmentShadow;
   std::string areaShadow;  // of lights with an area; empty: one ray to their middle, by `shadow`
+  std::string smoke;
   std::string gather;
   bool wideTree = false;   // a tree with eight children per node is walked
   bool quadTree = false;   // one with four

@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "trace/level_recorder.h"
 #include "trace/ray_store.h"
+#include "upload/smoke_check.h"
 
 namespace crosslight {
 
@@ -40,6 +41,7 @@ class Whitted final : public Technique {
         store_(device, storeSize(cameraRays), kernels_->classes()),
         set_(device, kernels_->layout()),
         commands_(device) {
+    checkSmokeLoops(device.info(), scene.scene(), plan, settings);
     scene_.bind(set_);
     store_.bind(set_);
     set_.set(kBindCounters, buffers.counters);
@@ -210,9 +212,25 @@ class Whitted final : public Technique {
       push.firstLight = first;
       push.lightCount = std::min(store_.batch, lights - first);
       shadeLevel(push, primary && aovs ? kVariantAovs : 0);
+      if (first + store_.batch >= lights) addSmoke(push);
       if (recorder_ != nullptr) recorder_->record(commands_, push);
     }
     submit(tally);
+  }
+
+  // After all else of a level: what its rays bring is weakened, then light is added. With shadows, one step of one
+  // light at a time (shaders/trace/smoke.comp).
+  void addSmoke(TracePush push) {
+    if (choice_.smoke.empty() || !hasSmoke(scene_.scene().atmosphere.smoke)) return;
+    push.lightInBatch = ~0u;
+    dispatch({choice_.smoke}, push, "smoke");
+    if (choice_.shadow.empty()) return;
+    for (push.lightInBatch = 0; push.lightInBatch < scene_.lightCount(); ++push.lightInBatch) {
+      for (push.smokeStep = 0; push.smokeStep < settings_.smokeSteps; ++push.smokeStep) {
+        for (push.shadowChannel = 0; push.shadowChannel < shadowChannels(); ++push.shadowChannel)
+          dispatch({choice_.smoke}, push, "smoke");
+      }
+    }
   }
 
   void queueHits(const TracePush& push) {

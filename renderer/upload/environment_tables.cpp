@@ -274,6 +274,18 @@ double texelSolidAngle(const EnvironmentMap& map, std::uint32_t row) {
   return rowSolidAngle(static_cast<int>(map.width), static_cast<int>(map.height), static_cast<int>(row));
 }
 
+glm::vec3 meanRadiance(const EnvironmentMap& map) {
+  glm::dvec3 sum(0.0);
+  double whole = 0.0;
+  for (std::uint32_t y = 0; y < map.height; ++y) {
+    const double angle = texelSolidAngle(map, y);
+    for (std::uint32_t x = 0; x < map.width; ++x)
+      sum += angle * glm::dvec3(map.radiance[std::size_t{y} * map.width + x]);
+    whole += angle * map.width;
+  }
+  return glm::vec3(sum / whole);
+}
+
 std::vector<glm::vec4> environmentTexels(const EnvironmentMap& map) {
   std::vector<glm::vec4> texels;
   for (const glm::vec3& v : map.radiance) texels.emplace_back(v, 0.0f);

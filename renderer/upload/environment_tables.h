@@ -16,6 +16,9 @@ std::vector<glm::vec4> environmentTexels(const EnvironmentMap& map);
 // Unit direction of a place in the map, u and v in [0,1]: see EnvironmentMap.
 glm::dvec3 environmentDirection(double u, double v);
 
+// Over all directions.
+glm::vec3 meanRadiance(const EnvironmentMap& map);
+
 // Of a row's texels, each.
 double texelSolidAngle(const EnvironmentMap& map, std::uint32_t row);
 

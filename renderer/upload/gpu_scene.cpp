@@ -29,6 +29,14 @@ std::vector<glm::vec4> boxTexels(const std::vector<Bounds>& boxes) {
   return texels;
 }
 
+// Four to a texel; at least one.
+std::vector<glm::vec4> densityTexels(const Smoke& smoke) {
+  std::vector<glm::vec4> texels(smoke.densities.size() / 4 + 1, glm::vec4(0.0f));
+  for (std::size_t i = 0; i < smoke.densities.size(); ++i)
+    texels[i / 4][static_cast<glm::length_t>(i % 4)] = smoke.densities[i];
+  return texels;
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSettings& settings, FlatScene flat,
@@ -71,6 +79,10 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
     environment_ = gpu::Buffer::of(device, "environment", around.present() ? environmentTexels(*around.map) : none,
                                    gpu::useUniformTexel);
   }
+  const Environment& shines = scene.atmosphere.environment;
+  if (shines.present() && hasSmoke(scene.atmosphere.smoke)) environmentMean_ = meanRadiance(*shines.map);
+  smokeGrid_ =
+      gpu::Buffer::of(device, "densities of smoke", densityTexels(scene.atmosphere.smoke), gpu::useUniformTexel);
   positions_ = moved("positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
   attributes_ = moved("vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
   indices_ = moved("indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
@@ -127,6 +139,7 @@ void GpuScene::setSample(const glm::vec2& sampleOffset, std::uint32_t sampleInde
   frame.cameraMedia = cameraMedia_;
   frame.cameraMedium = cameraMedium_;
   frame.optics = optics_;
+  frame.smokeAround = frame.ambient + frame.environmentGain * environmentMean_;
   frame_.write(0, std::as_bytes(std::span(&frame, 1)));
 }
 
@@ -153,6 +166,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindShapeBoxes, shapeBoxes_);
   if (triangleBoxes_) set.set(kBindTriangleBoxes, triangleBoxes_);
   set.set(kBindEnvironment, environment_);
+  set.set(kBindSmokeGrid, smokeGrid_);
 }
 
 std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> moreStorageSlots,
@@ -178,7 +192,8 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindDrawTexels, texelBufferUint4},
                                      {kBindShapeTexels, texelBufferUint4},
                                      {kBindShapeBoxes, texelBufferUint4},
-                                     {kBindEnvironment, texelBufferFloat4}};
+                                     {kBindEnvironment, texelBufferFloat4},
+                                     {kBindSmokeGrid, texelBufferFloat4}};
   for (const std::uint32_t slot : moreStorageSlots) bindings.push_back({slot, storageBuffer});
   for (const std::uint32_t slot : moreTexelSlots) bindings.push_back({slot, texelBufferUint4});
   return bindings;

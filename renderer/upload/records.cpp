@@ -181,6 +181,28 @@ void setEnvironment(const Environment& around, const RenderSettings& settings, s
   f.environmentGain = static_cast<float>(around.intensity * settings.environmentIntensity);
 }
 
+// Steps are sampled at another place for every ray only where shadows have edges to hide.
+void setSmoke(const Smoke& smoke, const RenderSettings& settings, bool shadows, const glm::dvec3& origin,
+              shared::FrameRecord& f) {
+  if (!hasSmoke(smoke)) return;
+  f.smokeKind = static_cast<std::uint32_t>(smoke.shape);
+  f.smokeCenter = glm::vec3(smoke.center - origin);
+  f.smokeHalfSize =
+      smoke.shape == SmokeShape::sphere ? glm::vec3(static_cast<float>(smoke.radius)) : glm::vec3(0.5 * smoke.size);
+  f.smokeAbsorption = smoke.absorption;
+  f.smokeScattering = smoke.scattering;
+  f.smokeAnisotropy = smoke.anisotropy;
+  f.smokeGridX = smoke.grid[0];
+  f.smokeGridY = smoke.grid[1];
+  f.smokeGridZ = smoke.grid[2];
+  f.smokeSteps = settings.smokeSteps;
+  f.smokeSeed = shadows ? static_cast<std::uint32_t>(settings.seed ^ settings.seed >> 32) | 1u : 0u;
+}
+
+static_assert(static_cast<std::uint32_t>(SmokeShape::none) == shared::kSmokeNone);
+static_assert(static_cast<std::uint32_t>(SmokeShape::everywhere) == shared::kSmokeEverywhere);
+static_assert(static_cast<std::uint32_t>(SmokeShape::box) == shared::kSmokeBox);
+static_assert(static_cast<std::uint32_t>(SmokeShape::sphere) == shared::kSmokeSphere);
 static_assert(static_cast<std::uint32_t>(FogMode::none) == shared::kFogNone);
 static_assert(static_cast<std::uint32_t>(FogMode::linear) == shared::kFogLinear);
 static_assert(static_cast<std::uint32_t>(FogMode::exp) == shared::kFogExp);
@@ -246,6 +268,8 @@ shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& se
   f.lightSamples = settings.lightSamples;
   f.background = seenBackground(scene.atmosphere, settings);
   setFog(scene.atmosphere, settings, f);
+  const bool shadows = settings.method == Method::whitted && settings.shadows && !scene.lights.empty();
+  setSmoke(scene.atmosphere.smoke, settings, shadows, renderOrigin(camera), f);
   return f;
 }
 

@@ -4,8 +4,8 @@
 #include "shared/scene_bindings.glsl"
 #include "raster/draw.glsl"
 #include "shade/shade.glsl"
-#include "raster/behind.glsl"
+#include "raster/air.glsl"
 
 layout(location = 0) out vec4 outColor;
 
-void main() { outColor = vec4(radianceBehind(directionOfPixel()), 0.0); }
+void main() { outColor = vec4(backgroundThroughAir(), 0.0); }

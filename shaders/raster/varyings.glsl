@@ -48,7 +48,7 @@ const uint kSums = 1u + 2u * kMany + kMany * uint(kSumsHaveFresnel);
 const uint kBack = kSums * uint(CL_HAS(twoSided));
 #ifdef CL_FLAT_CODES
 // The bits of the sums; but where the color is whole, and the same all over the triangle, the word that the film takes.
-const bool kShownByVertex = (specEffects & (kColorEffects | kEffect_fog)) == 0u;
+const bool kShownByVertex = (specEffects & (kColorEffects | kEffect_fog | kEffect_smoke)) == 0u;
 layout(location = 5) flat CL_STAGE uvec3 litSums[kSums + kBack];
 #define CL_SUM_OF(sum) uintBitsToFloat(sum)
 #define CL_PASSED_SUM(sum) floatBitsToUint(sum)

@@ -23,6 +23,7 @@
   X(14, triangles)               \
   X(15, turnedShapes)            \
   X(16, fog)                     \
+  X(17, smoke)                   \
   X(18, environment)             \
   X(19, softShadows)             \
   X(20, dispersion)              \
@@ -73,6 +74,7 @@ CL_CONST uint kBindMoments = 75;        // PixelMoments[pixels of the band]
 CL_CONST uint kBindEnvironment = 55;    // texel buffer, RGBA32F: see shaders/shade/environment.glsl
 CL_CONST uint kBindMedia = 53;          // uvec4 per ray node: the bodies that the ray is in (trace/media.glsl)
 CL_CONST uint kMostMedia = 8u;          // at once
+CL_CONST uint kBindSmokeGrid = 54;      // texel buffer, RGBA32F: densities, four to a texel
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 
@@ -205,6 +207,7 @@ struct TracePush {
   uint nodeCapacity;
   uint maxDepth;
   uint hitClass;       // whose queue is worked on
+  uint smokeStep;      // smoke: which one, of the light lightInBatch
   uint shadowChannel;  // shadow: 0..2, the color whose share is looked for
 };
 struct FilmPush {

@@ -166,15 +166,31 @@ struct FrameRecord {
   uvec2 environmentSize;  // texels of the map
   vec2 environmentTurn;   // cosine and sine of its rotation about +Y
   float environmentGain;  // radiance of a texel of 1
-  uvec4 cameraMedia;      // the bodies that the camera is in, as kBindMedia has them
-  uint cameraMedium;      // material of the one that counts; kNoId: none
-  uint optics;            // kOptics*
+  uint smokeKind;         // kSmoke*
+  vec3 smokeCenter;       // render space
+  vec3 smokeHalfSize;     // of the box; of the sphere: its radius, three times
+  vec3 smokeAbsorption;   // per scene unit, where the density is 1
+  vec3 smokeScattering;
+  vec3 smokeAround;       // radiance from all around that smoke scatters
+  float smokeAnisotropy;  // g of Henyey and Greenstein 1941, -1..1
+  uint smokeGridX;        // densities along each axis; 0: the density is 1 all over
+  uint smokeGridY;
+  uint smokeGridZ;
+  uint smokeSteps;    // along the part of a ray that lies in smoke
+  uint smokeSeed;     // of the places within them that are looked at; 0: their middles
+  uvec4 cameraMedia;  // the bodies that the camera is in, as kBindMedia has them
+  uint cameraMedium;  // material of the one that counts; kNoId: none
+  uint optics;        // kOptics*
 };
-CL_SIZE(FrameRecord, 272)
+CL_SIZE(FrameRecord, 360)
 // What changes how light goes through bodies: by the scene or by request, so a pipeline with everything must ask.
 CL_CONST uint kOpticsNestedMedia = 1u;
 CL_CONST uint kOpticsDispersion = 2u;
 CL_CONST uint kOpticsColoredShadows = 4u;
+CL_CONST uint kSmokeNone = 0u;
+CL_CONST uint kSmokeEverywhere = 1u;
+CL_CONST uint kSmokeBox = 2u;
+CL_CONST uint kSmokeSphere = 3u;
 CL_CONST uint kFogNone = 0u;
 CL_CONST uint kFogLinear = 1u;
 CL_CONST uint kFogExp = 2u;

@@ -16,6 +16,7 @@ constexpr OpticsCase kCases[] = {
     {"feature/colored_shadow", [](RenderSettings& s) { s.coloredShadows = true; },
      [](RenderSettings& s) { s.coloredShadows = false; }},
     {"feature/nested_media", [](RenderSettings&) {}, [](RenderSettings& s) { s.refraction = false; }},
+    {"feature/smoke", [](RenderSettings& s) { s.smokeSteps = 8; }, [](RenderSettings& s) { s.smokeSteps = 16; }},
 };
 
 class Optics : public ::testing::TestWithParam<OpticsCase> {};

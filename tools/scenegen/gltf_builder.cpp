@@ -113,6 +113,14 @@ int GltfBuilder::addAccessor(const std::vector<T>& values, const char* type, boo
   return append("accessors", std::move(accessor));
 }
 
+int GltfBuilder::addScalars(const std::vector<float>& values) {
+  const auto bytes = values.size() * sizeof(float);
+  return append("accessors", {{"bufferView", addView(values.data(), bytes, 0)},
+                              {"componentType", kFloat},
+                              {"count", values.size()},
+                              {"type", "SCALAR"}});
+}
+
 int GltfBuilder::addIndices(const std::vector<std::uint32_t>& indices, std::size_t vertexCount) {
   const bool isShort = vertexCount - 1 <= kLargestShortIndex;
   const std::vector<std::uint16_t> shorts(isShort ? indices.begin() : indices.end(), indices.end());

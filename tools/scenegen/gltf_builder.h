@@ -34,6 +34,8 @@ class GltfBuilder {
   int addNode(Json node);
   int addCamera(Json camera);
 
+  int addScalars(const std::vector<float>& values);  // an accessor without a mesh
+
   void setAtmosphere(Json atmosphere);  // CROSSLIGHT_scene_atmosphere of the current scene
 
   void addFile(const std::string& name, std::vector<std::byte> bytes);  // beside the asset

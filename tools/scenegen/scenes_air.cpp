@@ -1,4 +1,6 @@
-// Scenes of what fills the space between things: fog; and of bodies that light goes through.
+// Scenes of what fills the space between things: fog and smoke; and of bodies that light goes through.
+#include <cmath>
+
 #include "scenegen/meshes.h"
 #include "scenegen/parts.h"
 #include "scenegen/registry.h"
@@ -45,10 +47,58 @@ void fogExp2(GltfBuilder& gltf) {
   ballsInFog(gltf, std::move(fog));
 }
 
+Json smokeOf(const char* shape, double absorption, double scattering, double anisotropy) {
+  return {{"shape", shape},
+          {"absorption", listOf(dvec3(absorption))},
+          {"scattering", listOf(dvec3(scattering))},
+          {"anisotropy", anisotropy}};
+}
+
 void addFloor(GltfBuilder& gltf, const dvec3& color) {
   const int floor = gltf.addMaterial(matte("floor", color));
   const Primitive grid = withoutUv(gridMesh(dvec3(0.0), {3.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 24));
   gltf.addRoot(meshNode("floor", gltf.addMesh("floor", {{gltf.addGeometry(grid), floor}})));
+}
+
+// A lamp and the shadow of a ball in the smoke.
+void addSmokyStage(GltfBuilder& gltf, Json smoke) {
+  addFloor(gltf, {0.40, 0.40, 0.42});
+  const int red = gltf.addMaterial(paint("red", {0.75, 0.20, 0.15}));
+  gltf.addRoot(shapeNode(gltf, "ball", {.params = {0.65, 0.0, 0.0}, .segments = 40}, red, {0.0, 1.0, 0.0}));
+  addPointLight(gltf, "lamp", {-2.6, 3.4, 0.6}, {.color = dvec3(6.0), .attenuation = {0.0, 0.0, 0.5}});
+  addCamera(gltf, {.eye = {0.0, 2.0, 5.6}, .target = {0.0, 1.0, 0.0}, .yFovDegrees = 28.0});
+  gltf.setAtmosphere({{"ambient", listOf(dvec3(0.05))}, {"background", listOf({0.02, 0.03, 0.05})}, {"smoke", smoke}});
+}
+
+void smoke(GltfBuilder& gltf) {
+  Json smoke = smokeOf("box", 0.06, 0.30, 0.2);
+  smoke["center"] = listOf({0.0, 1.2, 0.0});
+  smoke["size"] = listOf({4.0, 2.4, 3.0});
+  addSmokyStage(gltf, std::move(smoke));
+}
+
+// Puffs: a sum of Gaussians in a grid of cells.
+void smokeGrid(GltfBuilder& gltf) {
+  constexpr int kX = 20, kY = 16, kZ = 12;
+  std::vector<float> densities;
+  for (int z = 0; z < kZ; ++z) {
+    for (int y = 0; y < kY; ++y) {
+      for (int x = 0; x < kX; ++x) {
+        const dvec3 p((x + 0.5) / kX, (y + 0.5) / kY, (z + 0.5) / kZ);
+        double density = 0.0;
+        for (const dvec3& puff : {dvec3(0.3, 0.35, 0.5), dvec3(0.55, 0.6, 0.5), dvec3(0.75, 0.75, 0.45)}) {
+          const dvec3 d = p - puff;
+          density += std::exp(-(d.x * d.x + d.y * d.y + d.z * d.z) / 0.03);
+        }
+        densities.push_back(static_cast<float>(density));
+      }
+    }
+  }
+  Json smoke = smokeOf("box", 0.3, 1.4, 0.0);
+  smoke["center"] = listOf({0.0, 1.2, 0.0});
+  smoke["size"] = listOf({4.0, 2.4, 2.0});
+  smoke["grid"] = {{"cellsX", kX}, {"cellsY", kY}, {"cellsZ", kZ}, {"densities", gltf.addScalars(densities)}};
+  addSmokyStage(gltf, std::move(smoke));
 }
 
 Json bodyMaterial(const char* name, const dvec3& tint, double ior, int priority) {
@@ -127,6 +177,8 @@ constexpr SceneRow kRows[] = {
     {"feature/dispersion", "bodies of glass that bend every color by its own index", dispersion},
     {"feature/colored_shadow", "light through colored glass: bodies and a pane", coloredShadow},
     {"feature/nested_media", "ice and glass that overlap water, kept apart by priority", nestedMedia},
+    {"feature/smoke", "even smoke in a box, and a shadow in it", smoke},
+    {"feature/smoke_grid", "smoke of a density given by a grid", smokeGrid},
 };
 
 }  // namespace

@@ -65,12 +65,22 @@ const std::vector<Carrier>& carriers() {
       {"CROSSLIGHT_scene_atmosphere",
        "/scenes/0/extensions/CROSSLIGHT_scene_atmosphere",
        [=](const Json& e) {
-         return file({{"scenes", {{{"extensions", {{"CROSSLIGHT_scene_atmosphere", e}}}}}}});
+         return file({{"scenes", {{{"extensions", {{"CROSSLIGHT_scene_atmosphere", e}}}}}},
+                      {"accessors", {{{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}}}}});  // zeros
        },
        {{"ambient", {1, 2, 3}},
         {"background", {1, 2, 3}},
         {"fog", {{"mode", "exp"}, {"color", {1, 2, 3}}, {"start", 1}, {"end", 2}, {"density", 3}}},
-        {"environment", {{"uri", "sky.hdr"}, {"intensity", 2}, {"rotation", -1}}}}},
+        {"environment", {{"uri", "sky.hdr"}, {"intensity", 2}, {"rotation", -1}}},
+        {"smoke",
+         {{"shape", "box"},
+          {"center", {1, 2, 3}},
+          {"size", {1, 2, 3}},
+          {"radius", 2},
+          {"absorption", {1, 2, 3}},
+          {"scattering", {1, 2, 3}},
+          {"anisotropy", 0.5},
+          {"grid", {{"cellsX", 1}, {"cellsY", 1}, {"cellsZ", 1}, {"densities", 0}}}}}}},
       {"CROSSLIGHT_node_shape",
        "/nodes/0/extensions/CROSSLIGHT_node_shape",
        [=](const Json& e) {
@@ -134,7 +144,8 @@ class Schema : public testing::TestWithParam<std::size_t> {
     }
     if (schema.contains("exclusiveMinimum")) with(pointer, schema["exclusiveMinimum"], true);
     if (schema.contains("maximum")) {
-      with(pointer, schema["maximum"], false);
+      if (pointer.find("/cells") == std::string::npos)
+        with(pointer, schema["maximum"], false);  // needs as many densities
       with(pointer, std::nextafter(schema["maximum"].get<double>(), 1e9), true);
     }
     if (!schema.contains("minimum") && !schema.contains("exclusiveMinimum") && !schema.contains("anyOf")) {

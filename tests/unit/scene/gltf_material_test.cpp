@@ -161,6 +161,21 @@ TEST(GltfMaterial, KhronosExtensionsAreRead) {
   EXPECT_REFUSED(file, "/materials/2/extensions/KHR_materials_ior/ior");
 }
 
+TEST(GltfMaterial, ScatteringWithinABodyIsNamedAsNotSimulated) {
+  GltfFile file;
+  const auto scatter = [&](double anisotropy) {
+    file.json["materials"] = {{{"extensions",
+                                {{"KHR_materials_volume_scatter",
+                                  {{"multiscatterColor", {0.5, 0.25, 1}}, {"scatterAnisotropy", anisotropy}}}}}}};
+  };
+  scatter(0.5);
+  file.load();
+  EXPECT_TRUE(warned(file.folder().path().string() +
+                     "/scene.gltf: /materials/0/extensions/KHR_materials_volume_scatter: is not simulated"));
+  scatter(1.5);
+  EXPECT_REFUSED(file, "/materials/0/extensions/KHR_materials_volume_scatter/scatterAnisotropy");
+}
+
 TEST(GltfMaterial, SpecularGlossinessKeepsDiffuseAndReflectance) {
   GltfFile file;
   file.extension("KHR_materials_pbrSpecularGlossiness");
