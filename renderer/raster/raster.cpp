@@ -10,7 +10,7 @@
 #include "raster/draw_list.h"
 #include "raster/draw_uniforms.h"
 #include "raster/layers.h"
-#include "raster/method_shaders.h"
+#include "raster/pipelines.h"
 #include "raster/shadow_pass.h"
 #include "raster/strip.h"
 #include "raster/targets.h"
@@ -21,16 +21,6 @@ namespace crosslight {
 using namespace shared;
 
 namespace {
-
-// Filled triangles are pushed this far behind their own edges when hidden lines are removed: two units of the depth
-// format's resolution and twice the polygon's slope cover a line's rasterisation, which runs up to one pixel outside.
-constexpr float kWireBiasConstant = -2.0f;
-constexpr float kWireBiasSlope = -2.0f;
-
-// A prepass lies behind what it stands for: the pass that lights then finds the nearest surfaces by the same test, in
-// the same order, as without it. Farther by 4 units of the depth format at a triangle's nearest point: rounding takes
-// one.
-constexpr float kPrepassBias = -4.0f;
 
 class Raster final : public Technique {
  public:
@@ -55,13 +45,14 @@ class Raster final : public Technique {
     set_.set(kBindAovs, buffers.aovs);
     set_.set(kBindCounters, buffers.counters);
     if (buffers.wantsCodes()) set_.set(kBindDisplayCodes, buffers.codeTable);
-    shadows_.make(device, layout_, constants(kVaryingAll));
+    shadows_.make(device, layout_, rasterConstants(inputs(), kVaryingAll));
     shadows_.bind(set_);
     if (!lists_.transparent.empty()) {
       layers_.emplace(device, settings.width, stripRows_, settings.msaa, settings.maxLayerBytes);
       layers_->bind(set_);
     }
-    makePipelines(device);
+    planDepth();
+    pipelines_ = RasterPipelines(device, layout_, inputs());
     makeIndices(device);
   }
 
@@ -106,13 +97,22 @@ class Raster final : public Technique {
     return all;
   }
 
-  gpu::Constants constants(std::uint32_t varyings, std::uint32_t variant = 0) const {
-    gpu::Constants all = constantsOf(plan_, variant);
-    const bool few = scene_.lightCount() <= kFewLights && !settings_.allEffects;
-    all.push_back({kSpecVaryings, settings_.allEffects ? kVaryingAll : varyings});
-    all.push_back({kSpecLightCount, few ? scene_.lightCount() : kManyLights});
-    for (const gpu::Constant& constant : shadows_.constants()) all.push_back(constant);
-    return all;
+  PipelineInputs inputs() const {
+    return {.plan = plan_,
+            .settings = settings_,
+            .lightCount = scene_.lightCount(),
+            .shadows = shadows_.constants(),
+            .colorFormat = targets_.colorFormat,
+            .codes = buffers_.wantsCodes(),
+            .layers = layers_.has_value(),
+            .prepass = prepass_.pays,
+            .layerConstants = layers_ ? layers_->constants() : gpu::Constants{}};
+  }
+
+  void planDepth() {
+    if (settings_.method == Method::wireframe) return;
+    const FrameRecord frame = makeFrameRecord(scene_.scene(), settings_, glm::vec2(0.5f));
+    prepass_ = planPrepass(scene_.flat(), lists_, frame, settings_, scene_.lightCount());
   }
 
   // Walks that met the limit of steps, over all samples.
@@ -122,113 +122,6 @@ class Raster final : public Technique {
     if (counters[kCounterCapped] > 0 && capped_ == 0)
       logWarning("some shadow rays met the limit of traversal steps; what lies beyond it casts no shadow");
     capped_ = counters[kCounterCapped];
-  }
-
-  gpu::GraphicsState baseState(std::string_view vertex, std::string_view fragment, std::uint32_t varyings) const {
-    using enum gpu::VertexFormat;
-    gpu::GraphicsState s;
-    s.vertex = gpu::embeddedShader(vertex);
-    if (!fragment.empty()) s.fragment = gpu::embeddedShader(fragment);
-    s.constants = constants(varyings);
-    s.buffers = {{sizeof(glm::vec3)}, {sizeof(VertexAttributes)}};
-    s.attributes = {{0, 0, 0, float3},
-                    {1, 1, offsetof(VertexAttributes, renderNormal), float3},
-                    {2, 1, offsetof(VertexAttributes, renderTangent), float4},
-                    {3, 1, offsetof(VertexAttributes, uv0), float2},
-                    {4, 1, offsetof(VertexAttributes, uv1), float2},
-                    {5, 1, offsetof(VertexAttributes, color), float4}};
-    s.colorFormat = targets_.colorFormat;
-    s.samples = settings_.msaa;
-    s.shadePerSample = settings_.shadesPerSample && settings_.msaa > 1;
-    return s;
-  }
-
-  // Depth alone; fragments only where an alpha mask cuts.
-  gpu::GraphicsState depthState() const {
-    gpu::GraphicsState s =
-        baseState("phong.vert", plan_.has(Effect::alphaMask) ? "mask.frag" : "", depthVaryingsOf(plan_));
-    s.colorTarget = false;
-    return s;
-  }
-
-  // Where no surface was drawn the depth is still 0. Drawing there costs less than clearing what surfaces cover anyway:
-  // llvmpipe clears formats of 16 bytes pixel by pixel (README).
-  gpu::GraphicsState backgroundState() const {
-    gpu::GraphicsState s;
-    s.vertex = gpu::embeddedShader("background.vert");
-    s.fragment = gpu::embeddedShader(backgroundShader(buffers_.wantsCodes()));
-    s.constants = constants(0);
-    s.colorFormat = targets_.colorFormat;
-    s.samples = settings_.msaa;
-    s.depthTest = gpu::DepthTest::equal;
-    s.depthWrite = false;
-    return s;
-  }
-
-  // Of the picture only: the AOVs hold the parts before the clamp, which has none.
-  bool clampsColors() const {
-    return settings_.clampVertexColors && (settings_.method == Method::flat || settings_.method == Method::gouraud);
-  }
-
-  void makePipelines(const gpu::Device& device) {
-    const MethodShaders shaders = shadersOf(settings_, buffers_.wantsCodes());
-    const std::uint32_t varyings = varyingsOf(settings_, plan_);
-    gpu::GraphicsState color = baseState(shaders.vertex, shaders.fragment, varyings);
-    color.constants = constants(varyings, clampsColors() ? kVariantClampVertexColors : 0u);
-    if (settings_.method == Method::wireframe) {
-      color.polygonMode = gpu::PolygonMode::line;
-      color.depthTest = gpu::DepthTest::greaterOrEqual;
-      gpu::GraphicsState fill = depthState();
-      fill.depthBiasConstant = kWireBiasConstant;
-      fill.depthBiasSlope = kWireBiasSlope;
-      depthFill_ = gpu::GraphicsPipeline(device, layout_, fill);
-    } else {
-      background_ = gpu::GraphicsPipeline(device, layout_, backgroundState());
-      makePrepass(device);
-    }
-    opaque_ = gpu::GraphicsPipeline(device, layout_, color);
-    if (layers_) makeLayerPipelines(device, color, shaders);
-    if (!settings_.aovs.empty()) makeAovPipelines(device, shaders);
-  }
-
-  void makePrepass(const gpu::Device& device) {
-    const FrameRecord frame = makeFrameRecord(scene_.scene(), settings_, glm::vec2(0.5f));
-    prepass_ = planPrepass(scene_.flat(), lists_, frame, settings_, scene_.lightCount());
-    if (!prepass_.pays) return;
-    gpu::GraphicsState fill = depthState();
-    fill.depthBiasConstant = kPrepassBias;
-    depthFill_ = gpu::GraphicsPipeline(device, layout_, fill);
-  }
-
-  void makeLayerPipelines(const gpu::Device& device, gpu::GraphicsState keep, const MethodShaders& shaders) {
-    const gpu::Constants constants = layers_->constants();
-    keep.fragment = gpu::embeddedShader(shaders.layersFragment);
-    keep.colorTarget = keep.depthWrite = false;
-    keep.constants.insert(keep.constants.end(), constants.begin(), constants.end());
-    keepLayers_ = gpu::GraphicsPipeline(device, layout_, keep);
-    gpu::GraphicsState resolve = backgroundState();
-    resolve.fragment = gpu::embeddedShader("layers_resolve.frag");
-    resolve.constants = constants;
-    resolve.depthTest = gpu::DepthTest::off;
-    resolve.blend = gpu::Blend::overPerChannel;
-    resolveLayers_ = gpu::GraphicsPipeline(device, layout_, resolve);
-  }
-
-  void makeAovPipelines(const gpu::Device& device, const MethodShaders& shaders) {
-    gpu::GraphicsState depth = depthState();
-    depth.vertex = gpu::embeddedShader(shaders.vertex);  // the same program as the pass that tests for equality
-    depth.constants = constants(kVaryingAll, kVariantSeparateSums);
-    depth.samples = 1;
-    depth.shadePerSample = false;
-    aovDepthPass_ = gpu::GraphicsPipeline(device, layout_, depth);
-    gpu::GraphicsState aov = baseState(shaders.vertex, shaders.aovFragment, kVaryingAll);
-    aov.constants = constants(kVaryingAll, kVariantSeparateSums);
-    aov.colorTarget = false;
-    aov.samples = 1;
-    aov.shadePerSample = false;
-    aov.depthTest = gpu::DepthTest::equal;
-    aov.depthWrite = false;
-    aovPass_ = gpu::GraphicsPipeline(device, layout_, aov);
   }
 
   // OpenGL's flat shading takes the last vertex; Vulkan's provoking vertex is the first: the corners are rotated.
@@ -305,9 +198,9 @@ class Raster final : public Technique {
   void recordColor(const Strip& strip, gpu::ColorBefore before) {
     gpu::RenderTargets targets;
     targets.depth = &targets_.depth;
-    if (depthFill_ && !settings_.hiddenLines) {
+    if (pipelines_.depthFill && !settings_.hiddenLines) {
       beginStrip(targets, strip);
-      drawCalls(depthFill_, lists_.opaque, 0);
+      drawCalls(pipelines_.depthFill, lists_.opaque, 0);
       commands_.endRendering();
       commands_.barrier();
       targets.clearDepth = false;
@@ -315,11 +208,11 @@ class Raster final : public Technique {
     targets.color = targets_.multisampled ? &targets_.multisampled : &targets_.picture;
     targets.resolve = targets_.multisampled && !layers_ ? &targets_.picture : nullptr;
     targets.clearValue = glm::vec4(seenBackground(scene_.scene().atmosphere, settings_), 0.0f);
-    if (background_) targets.colorBefore = before;
+    if (pipelines_.background) targets.colorBefore = before;
     beginStrip(targets, strip);
-    drawCalls(opaque_, lists_.opaque, 0);
-    if (background_) {
-      commands_.bind(background_, set_);
+    drawCalls(pipelines_.opaque, lists_.opaque, 0);
+    if (pipelines_.background) {
+      commands_.bind(pipelines_.background, set_);
       commands_.cull(gpu::Commands::Cull::none, false);
       commands_.push(RasterPush{0, strip.firstRow, 0, 0, 0, buffers_.displayGain, 0, 0});
       commands_.draw(3);
@@ -337,13 +230,13 @@ class Raster final : public Technique {
     depthOnly.depth = targets.depth;
     depthOnly.clearDepth = targets.clearDepth = false;
     beginStrip(depthOnly, strip);
-    drawCalls(keepLayers_, lists_.transparent, 0);
+    drawCalls(pipelines_.keepLayers, lists_.transparent, 0);
     commands_.endRendering();
     commands_.barrier();
     targets.colorBefore = gpu::ColorBefore::keep;
     targets.resolve = targets_.multisampled ? &targets_.picture : nullptr;
     beginStrip(targets, strip);
-    commands_.bind(resolveLayers_, set_);
+    commands_.bind(pipelines_.resolveLayers, set_);
     commands_.cull(gpu::Commands::Cull::none, false);
     commands_.push(RasterPush{0, 0, 0, 0, 0, buffers_.displayGain, layerFirstRow_, layers_->capacity()});
     commands_.draw(3);
@@ -357,12 +250,12 @@ class Raster final : public Technique {
     gpu::RenderTargets targets;
     targets.depth = &targets_.aovDepth;
     beginStrip(targets, strip);
-    drawCalls(aovDepthPass_, lists_.records, firstPixel);
+    drawCalls(pipelines_.aovDepthPass, lists_.records, firstPixel);
     commands_.endRendering();
     commands_.barrier();
     targets.clearDepth = false;
     beginStrip(targets, strip);
-    drawCalls(aovPass_, lists_.records, firstPixel);
+    drawCalls(pipelines_.aovPass, lists_.records, firstPixel);
     commands_.endRendering();
     commands_.endSpan();
   }
@@ -381,7 +274,7 @@ class Raster final : public Technique {
   RasterTargets targets_;
   std::optional<Layers> layers_;  // where something is transparent
   std::uint32_t layerFirstRow_ = 0;
-  gpu::GraphicsPipeline opaque_, keepLayers_, resolveLayers_, background_, depthFill_, aovDepthPass_, aovPass_;
+  RasterPipelines pipelines_;
   gpu::Buffer rotatedIndices_;
   PrepassVerdict prepass_;
   std::uint64_t draws_ = 0, capped_ = 0;
