@@ -78,6 +78,8 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.shadows = s.reflection = s.refraction = true;
   if (s.rasterShadows != RasterShadows::rays) s.rasterShadows = RasterShadows::off;  // rays need a tree
   s.shadowMaps = {};
+  s.rasterReflections = RasterReflections::off;
+  s.probeSize = 0;
   s.lightSamples = 0;
   s.environmentRotation = s.environmentIntensity = 0;
   s.filter = PixelFilter::box;

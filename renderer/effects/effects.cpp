@@ -167,9 +167,17 @@ class Analysis {
 
   void addRayRule(const MaterialRule& rule) {
     const bool wanted = rule.effect == Effect::reflection ? settings_.reflection : settings_.refraction;
+    if (!traced_ && rule.effect == Effect::reflection) return rasterReflections(rule);
     if (!traced_) return add(rule.effect, rule.name, false, "not simulated by raster methods");
     if (!wanted || settings_.maxDepth == 0) return add(rule.effect, rule.name, false, "switched off");
     addByMaterial(rule);
+  }
+
+  void rasterReflections(const MaterialRule& rule) {
+    if (settings_.method == Method::wireframe) return add(rule.effect, rule.name, false, "edges are not lit");
+    if (settings_.rasterReflections != RasterReflections::off) return addByMaterial(rule);
+    add(rule.effect, rule.name, false,
+        "raster shows no reflections; --set raster-reflections=environment, probes or mirrors does");
   }
 
   void shadows() {
@@ -243,7 +251,7 @@ class Analysis {
 
   // Mirrored and refracted rays meet surfaces from behind, which must then be lit from behind.
   void promote() {
-    const bool secondary = plan_.has(Effect::reflection) || plan_.has(Effect::refraction);
+    const bool secondary = traced_ && (plan_.has(Effect::reflection) || plan_.has(Effect::refraction));
     if (!secondary || plan_.has(Effect::twoSided)) return;
     plan_.effects |= bitOf(Effect::twoSided);
     for (EffectVerdict& v : plan_.verdicts) {

@@ -42,6 +42,8 @@ std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan) {
   }
   if (plan.has(Effect::vertexColors)) bits |= shared::kVaryingColor;
   if (plan.has(Effect::fog) || plan.has(Effect::smoke)) bits |= shared::kVaryingPosition;
+  if (settings.rasterReflections != RasterReflections::off && plan.has(Effect::reflection))
+    bits |= shared::kVaryingPosition | shared::kVaryingNormal;
   if (settings.method != Method::phong) return bits;
   // Lighting per fragment; at a centroid (flat.centroid) the triangle's corners are read instead.
   bits |= shared::kVaryingPosition | shared::kVaryingNormal;

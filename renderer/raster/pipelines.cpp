@@ -144,6 +144,7 @@ gpu::Constants rasterConstants(const PipelineInputs& inputs, std::uint32_t varyi
   all.push_back({kSpecVaryings, inputs.settings.allEffects ? kVaryingAll : varyings});
   all.push_back({kSpecLightCount, few ? inputs.lightCount : kManyLights});
   all.insert(all.end(), inputs.shadows.begin(), inputs.shadows.end());
+  all.insert(all.end(), inputs.reflections.begin(), inputs.reflections.end());
   return all;
 }
 

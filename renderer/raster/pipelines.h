@@ -14,7 +14,8 @@ struct PipelineInputs {
   const Plan& plan;
   const RenderSettings& settings;
   std::uint32_t lightCount;
-  gpu::Constants shadows;  // of the shadow pass
+  gpu::Constants shadows;      // of the shadow pass
+  gpu::Constants reflections;  // of the mirrors
   gpu::ImageFormat colorFormat = gpu::ImageFormat::rgba32f;
   bool codes = false;    // colors are a display's
   bool layers = false;   // something is transparent

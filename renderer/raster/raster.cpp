@@ -11,6 +11,7 @@
 #include "raster/draw_uniforms.h"
 #include "raster/layers.h"
 #include "raster/pipelines.h"
+#include "raster/reflections.h"
 #include "raster/shadow_pass.h"
 #include "raster/strip.h"
 #include "raster/targets.h"
@@ -33,6 +34,7 @@ class Raster final : public Technique {
         lists_(makeDrawLists(scene.flat(), scene.scene(), plan, settings)),
         uniforms_(device, scene),
         shadows_(device, scene, plan, settings),
+        reflections_(device, scene, plan, settings, buffers),
         layout_(device, bindings(), std::max(sizeof(RasterPush), sizeof(VertexShadowPush))),
         set_(device, layout_),
         commands_(device),
@@ -51,12 +53,14 @@ class Raster final : public Technique {
       layers_.emplace(device, settings.width, stripRows_, settings.msaa, settings.maxLayerBytes);
       layers_->bind(set_);
     }
+    reflections_.bind(set_);
     planDepth();
     pipelines_ = RasterPipelines(device, layout_, inputs());
     makeIndices(device);
   }
 
   void renderSample(const SampleRequest& request, Tally& tally) override {
+    reflections_.draw(request, tally);
     scene_.setSample(request.offset);
     commands_.begin();
     shadows_.record(commands_, set_);
@@ -73,16 +77,18 @@ class Raster final : public Technique {
 
   std::string promise() const override {
     if (settings_.method == Method::wireframe) return "none: edges in the surface's own color, no lighting";
-    return "E | L[DS_glossy]E: direct light " + shadows_.promise() +
-           "; no reflection, no refraction; transparency without bending";
+    return "E | L[DS_glossy]E: direct light " + shadows_.promise() + "; " + reflections_.promise() +
+           "; no refraction; transparency without bending";
   }
 
   std::map<std::string, std::uint64_t> counters() const override {
-    return {{"draws", draws_},
-            {"traversalsCapped", capped_},
-            {"shadowMaps", shadows_.mapCount()},
-            {"depthPrepass", prepass_.pays ? 1 : 0},
-            {"transparentFragments", layers_ ? layers_->mostFragments() : 0}};
+    std::map<std::string, std::uint64_t> all = reflections_.counters();
+    all.insert({{"draws", draws_},
+                {"traversalsCapped", capped_},
+                {"shadowMaps", shadows_.mapCount()},
+                {"depthPrepass", prepass_.pays ? 1 : 0},
+                {"transparentFragments", layers_ ? layers_->mostFragments() : 0}});
+    return all;
   }
 
  private:
@@ -93,6 +99,7 @@ class Raster final : public Technique {
     }
     for (const gpu::Binding& binding : DrawUniforms::bindings()) all.push_back(binding);
     for (const gpu::Binding& binding : shadows_.bindings()) all.push_back(binding);
+    for (const gpu::Binding& binding : reflections_.bindings()) all.push_back(binding);
     if (buffers_.wantsCodes()) all.push_back({kBindDisplayCodes, gpu::BindingType::texelBufferUint1});
     return all;
   }
@@ -102,6 +109,7 @@ class Raster final : public Technique {
             .settings = settings_,
             .lightCount = scene_.lightCount(),
             .shadows = shadows_.constants(),
+            .reflections = reflections_.constants(),
             .colorFormat = targets_.colorFormat,
             .codes = buffers_.wantsCodes(),
             .layers = layers_.has_value(),
@@ -181,7 +189,8 @@ class Raster final : public Technique {
 
   void drawColor(const Strip& strip, const Band& band, gpu::ColorBefore before = gpu::ColorBefore::undefined) {
     commands_.beginSpan("raster");
-    recordColor(strip, before);
+    // Modulo 2^32, as the shader's subtraction is: negative where the band begins before the strip.
+    recordColor(strip, (band.firstRow - strip.firstRow) * settings_.width, before);
     commands_.endSpan();
     if (targets_.areFilm) {
       CL_CHECK_EQ(band.firstRow, 0u);  // a film as large as the picture has one band
@@ -195,12 +204,12 @@ class Raster final : public Technique {
     commands_.endSpan();
   }
 
-  void recordColor(const Strip& strip, gpu::ColorBefore before) {
+  void recordColor(const Strip& strip, std::uint32_t firstPixel, gpu::ColorBefore before) {
     gpu::RenderTargets targets;
     targets.depth = &targets_.depth;
     if (pipelines_.depthFill && !settings_.hiddenLines) {
       beginStrip(targets, strip);
-      drawCalls(pipelines_.depthFill, lists_.opaque, 0);
+      drawCalls(pipelines_.depthFill, lists_.opaque, firstPixel);
       commands_.endRendering();
       commands_.barrier();
       targets.clearDepth = false;
@@ -210,7 +219,7 @@ class Raster final : public Technique {
     targets.clearValue = glm::vec4(seenBackground(scene_.scene().atmosphere, settings_), 0.0f);
     if (pipelines_.background) targets.colorBefore = before;
     beginStrip(targets, strip);
-    drawCalls(pipelines_.opaque, lists_.opaque, 0);
+    drawCalls(pipelines_.opaque, lists_.opaque, firstPixel);
     if (pipelines_.background) {
       commands_.bind(pipelines_.background, set_);
       commands_.cull(gpu::Commands::Cull::none, false);
@@ -218,11 +227,11 @@ class Raster final : public Technique {
       commands_.draw(3);
     }
     commands_.endRendering();
-    if (layers_) recordLayers(strip, targets);
+    if (layers_) recordLayers(strip, firstPixel, targets);
   }
 
   // Over what is opaque: every transparent fragment nearer than it into lists, then the lists into the picture.
-  void recordLayers(const Strip& strip, gpu::RenderTargets targets) {
+  void recordLayers(const Strip& strip, std::uint32_t firstPixel, gpu::RenderTargets targets) {
     layers_->clear(commands_, strip.rows.rowCount);
     commands_.barrier();
     layerFirstRow_ = strip.rows.firstRow - strip.firstRow;
@@ -230,7 +239,7 @@ class Raster final : public Technique {
     depthOnly.depth = targets.depth;
     depthOnly.clearDepth = targets.clearDepth = false;
     beginStrip(depthOnly, strip);
-    drawCalls(pipelines_.keepLayers, lists_.transparent, 0);
+    drawCalls(pipelines_.keepLayers, lists_.transparent, firstPixel);
     commands_.endRendering();
     commands_.barrier();
     targets.colorBefore = gpu::ColorBefore::keep;
@@ -267,6 +276,7 @@ class Raster final : public Technique {
   DrawLists lists_;
   DrawUniforms uniforms_;
   ShadowPass shadows_;
+  Reflections reflections_;
   gpu::BindingLayout layout_;
   gpu::BindingSet set_;
   gpu::Commands commands_;

@@ -22,7 +22,9 @@ RasterTargets::RasterTargets(const gpu::Device& device, const RenderSettings& se
 bool canDrawCodes(const Plan& plan, const RenderSettings& settings) {
   const bool shaded =
       settings.method == Method::flat || settings.method == Method::gouraud || settings.method == Method::phong;
-  return shaded && settings.spp == 1 && settings.msaa == 1 && settings.aovs.empty() && !plan.has(Effect::transparency);
+  return shaded && settings.spp == 1 && settings.msaa == 1 && settings.aovs.empty() &&
+         !plan.has(Effect::transparency) &&
+         !(plan.has(Effect::reflection) && settings.rasterReflections != RasterReflections::off);
 }
 
 }  // namespace crosslight

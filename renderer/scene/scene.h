@@ -165,6 +165,9 @@ struct Camera {
   double zNear = 0.1;
   std::optional<double> zFar;       // none: infinite (perspective only)
   glm::dmat4 worldFromCamera{1.0};  // rigid: looks along -Z, up +Y
+  // Instead of a near plane, raster only: n and c, world space; what has n.p < c is not drawn. It is not before the
+  // plane.
+  std::optional<glm::dvec4> clipPlane;
 };
 
 enum class FogMode { none, linear, exp, exp2 };

@@ -19,8 +19,11 @@ enum class DepthPrepass { automatic, on, off };         // phong: same image, ot
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
 enum class Dispersion { off, rgb };                     // of refracted rays: one, or one for each of three colors
-enum class TwoSided { material, always };               // per material (glTF's doubleSided), or everything
-enum class EmissiveLights { off, on, automatic };       // surfaces that glow light others; automatic: without lights
+// Mirrors of flat, gouraud and phong: not shown; the background alone; by cube maps; flat ones drawn, others by cube
+// maps.
+enum class RasterReflections { off, environment, probes, mirrors };
+enum class TwoSided { material, always };          // per material (glTF's doubleSided), or everything
+enum class EmissiveLights { off, on, automatic };  // surfaces that glow light others; automatic: without lights
 
 // Of RasterShadows::maps.
 struct ShadowMapSettings {
@@ -56,6 +59,8 @@ struct RenderSettings {
   bool refraction = true;  // whitted; off: transmitted light goes straight on
   RasterShadows rasterShadows = RasterShadows::off;
   ShadowMapSettings shadowMaps;
+  RasterReflections rasterReflections = RasterReflections::off;
+  std::uint32_t probeSize = 256;    // pixels along an edge of a probe's cube
   std::uint32_t lightSamples = 16;  // whitted: rays to a light with an area; 0: one to its middle
   EmissiveLights emissiveLights = EmissiveLights::off;
   double environmentRotation = 0.0;   // degrees, added to the scene's

@@ -217,6 +217,32 @@ glm::vec3 seenBackground(const Atmosphere& atmosphere, const RenderSettings& set
 
 glm::dvec3 renderOrigin(const Camera& camera) { return glm::dvec3(camera.worldFromCamera[3]); }
 
+// Lengyel 2005, "Oblique View Frustum Depth Projection and Clipping", for reversed Z: with z = w - s (n.p - c) the near
+// plane is the given one, and depth still falls along every line of sight. s is as large as lets nothing that is seen
+// have z < 0.
+static void clipObliquely(const Scene& scene, const Camera& camera, const glm::dvec2& half, glm::dmat4& clip) {
+  using glm::dvec3;
+  const glm::dmat3 axes(camera.worldFromCamera);
+  const dvec3 n(*camera.clipPlane), origin = renderOrigin(camera);
+  const double c = camera.clipPlane->w - glm::dot(n, origin);
+  const dvec3 right = glm::normalize(axes[0]) * half.x, up = glm::normalize(axes[1]) * half.y;
+  const dvec3 forward = -glm::normalize(axes[2]);
+  const DBounds& b = scene.worldBounds;
+  const bool byBounds = camera.orthographic && !b.empty();
+  double most = 0;
+  for (int i = 0; i < 8; ++i) {
+    const bool x = (i & 1) != 0, y = (i & 2) != 0, z = (i & 4) != 0;
+    const dvec3 across = (x ? right : -right) + (y ? up : -up);
+    dvec3 at = across + forward;  // a direction; parallel rays: a corner of what is seen
+    if (camera.orthographic) at = across + forward * camera.zFar.value_or(camera.zNear + 1.0);
+    if (byBounds) at = dvec3((x ? b.upper : b.lower).x, (y ? b.upper : b.lower).y, (z ? b.upper : b.lower).z) - origin;
+    most = std::max(most, glm::dot(n, at) - (camera.orthographic ? c : 0.0));
+  }
+  const double s = most > 0 ? 1 / (most * (1 + 1e-6)) : 1.0;  // the margin is for rounding
+  for (int i = 0; i < 3; ++i) clip[i][2] = clip[i][3] - s * n[i];
+  clip[3][2] = clip[3][3] + s * c;
+}
+
 shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& settings, const glm::vec2& sampleOffset) {
   const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
   const glm::dmat3 axes(camera.worldFromCamera);
@@ -247,6 +273,8 @@ shared::FrameRecord makeFrameRecord(const Scene& scene, const RenderSettings& se
   }
   clip[3] = {camera.orthographic ? moveX : 0.0, camera.orthographic ? moveY : 0.0, depthConstant,
              camera.orthographic ? 1.0 : 0.0};
+
+  if (camera.clipPlane) clipObliquely(scene, camera, {halfX, halfY}, clip);
 
   shared::FrameRecord f{};
   f.clipFromRender = glm::mat4(clip);

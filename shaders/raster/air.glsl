@@ -10,16 +10,17 @@ vec3 throughSmokeFrom(vec3 color, vec3 behind, vec3 origin, vec3 d, float distan
 }
 
 // `behind`: share of what lies behind that shows.
+vec3 seenThroughSmoke(vec3 color, vec3 behind, vec3 renderPos) {
+  if (!CL_HAS(smoke)) return color;
+  float depth = dot(renderPos, frame.cameraForward);
+  bool side = frame.orthographic != 0u;  // rays run side by side
+  vec3 origin = side ? renderPos - depth * frame.cameraForward : vec3(0.0);
+  vec3 d = side ? frame.cameraForward : safeNormalize(renderPos, frame.cameraForward);
+  return throughSmokeFrom(color, behind, origin, d, side ? depth : safeLength(renderPos));
+}
 vec3 seenThroughAir(vec3 color, vec3 behind, vec3 renderPos) {
   if (CL_HAS(fog)) color = throughFog(color, behind, fogOver(fogDistance(renderPos)));
-  if (CL_HAS(smoke)) {
-    float depth = dot(renderPos, frame.cameraForward);
-    bool side = frame.orthographic != 0u;  // rays run side by side
-    vec3 origin = side ? renderPos - depth * frame.cameraForward : vec3(0.0);
-    vec3 d = side ? frame.cameraForward : safeNormalize(renderPos, frame.cameraForward);
-    color = throughSmokeFrom(color, behind, origin, d, side ? depth : safeLength(renderPos));
-  }
-  return color;
+  return seenThroughSmoke(color, behind, renderPos);
 }
 
 // Fog covers what lies behind already.

@@ -7,6 +7,8 @@
 layout(push_constant, scalar) uniform PushBlock { RasterPush pushed; };
 layout(set = 0, binding = kBindDrawMaterial, scalar) uniform DrawMaterialBlock { MaterialRecord drawMaterial; };
 layout(set = 0, binding = kBindFewLights, scalar) uniform FewLightsBlock { LightRecord fewLights[kFewLights]; };
+layout(constant_id = kSpecReflections) const uint specReflections = kReflectionsOff;
+const bool kReflects = specReflections != kReflectionsOff;
 layout(constant_id = kSpecLightCount) const uint specLightCount = kManyLights;
 
 uint drawnLightCount() { return specLightCount == kManyLights ? frame.lightCount : specLightCount; }

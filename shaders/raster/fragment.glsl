@@ -11,6 +11,9 @@
 #include "raster/air.glsl"
 #include "shade/triangle.glsl"
 #include "raster/fragment_in.glsl"
+#if !defined(CL_AOV) && !defined(CL_CODES)
+#include "raster/reflections.glsl"
+#endif
 
 #ifdef CL_AOV
 layout(early_fragment_tests) in;
@@ -116,11 +119,13 @@ void main() {
     if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.colored ? at.color.a : 1.0))) discard;
   }
   SurfacePoint s = surfaceAt(at);
+  environmentMirrored_ = kReflects && (drawMaterial.flags & kMaterialMirror) != 0u;
 #ifdef CL_AOV
   record(at, s, compose(s, lighting(s), frame.ambient));
 #elif defined(CL_LAYERS)
   Layer layer = layerOf(s, litColor(at, s));
   layer.color = seenThroughAir(layer.color, layer.passed, at.renderPos);
+  if (kReflects) layer.color += reflectedLight(at, s);
   keepLayer(layer);
 #elif defined(CL_CODES)
   outCodes = shownCodes(seenThroughAir(litColor(at, s), vec3(0.0), at.renderPos));
@@ -128,6 +133,8 @@ void main() {
   if (kShownByVertex) outCodes = gl_FrontFacing || !CL_HAS(twoSided) ? litSums[0].x : litSums[kBack].x;
 #endif
 #else
-  outColor = vec4(seenThroughAir(litColor(at, s), vec3(0.0), at.renderPos), 1.0);
+  vec3 color = seenThroughAir(litColor(at, s), vec3(0.0), at.renderPos);
+  if (kReflects) color += reflectedLight(at, s);
+  outColor = vec4(color, 1.0);
 #endif
 }

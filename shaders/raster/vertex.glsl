@@ -31,6 +31,7 @@ LightSums lightVertex(bool frontFacing) {
   SurfaceInput at = SurfaceInput(inPosition, inNormal, safeNormalize(inNormal, vec3(0.0, 0.0, 1.0)), inTangent, inUv0,
                                  inUv1, inColor, draws[pushed.drawId].materialId, frontFacing, (draws[pushed.drawId].flags & kDrawHasColors) != 0u, false);
   SurfacePoint s = surfaceAt(at);
+  environmentMirrored_ = kReflects && (materials[at.materialId].flags & kMaterialMirror) != 0u;
   LightSums sums = illuminate(s, viewDirection(inPosition), 0u, drawnLightCount());
   bool whole = !kSeparateSums && (kClampsColors || !colorsVary(materials[at.materialId], at.colored));
   if (kClampsColors && CL_HAS(emissiveTexture) && hasTexture(materials[at.materialId].emissiveTexture)) s.emission = vec3(0.0);

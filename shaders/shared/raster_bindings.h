@@ -14,6 +14,8 @@ CL_CONST uint kBindVertexVisibility = 65;  // float[vertices * lights]: of metho
 CL_CONST uint kBindShadowTexels = 66;      // uint texels: bits of distances, see shadow_map.glsl
 CL_CONST uint kBindShadowViews = 67;       // ShadowView[]
 CL_CONST uint kBindShadowLights = 68;      // ShadowLight[], one per light
+CL_CONST uint kBindReflectors = 69;        // Reflector[], one per DrawRecord
+CL_CONST uint kBindReflected = 71;         // texels: pictures of mirrors, then the cubes of probes
 
 CL_CONST uint kSpecVaryings = 30;       // bits kVarying*: what the vertex stage passes on and fragments read
 CL_CONST uint kSpecLightCount = 31;     // lights in kBindFewLights; kManyLights: read kBindLights instead
@@ -21,6 +23,12 @@ CL_CONST uint kSpecSamples = 40;        // per pixel
 CL_CONST uint kSpecLoopPasses = 41;     // at most, through all loops of an invocation
 CL_CONST uint kSpecRasterShadows = 55;  // kShadows*
 CL_CONST uint kSpecShadowFilter = 56;   // texels a side that a lookup averages; 0: as many as the penumbra is wide
+
+CL_CONST uint kSpecReflections = 57;  // kReflections*
+
+CL_CONST uint kReflectionsOff = 0u;
+CL_CONST uint kReflectionsOfBackground = 1u;
+CL_CONST uint kReflectionsByPictures = 2u;
 
 CL_CONST uint kShadowsOff = 0u;
 CL_CONST uint kShadowsByMaps = 1u;
@@ -59,9 +67,9 @@ CL_CONST uint kLayerCounts = 3;
 
 struct RasterPush {
   uint firstTriangle;  // of the draw: added to gl_PrimitiveID
-  uint firstPixel;  // AOV pass: subtracted from the target's pixel index to give that within the band; background: row
-                    // of the picture that is the target's first
-  uint drawId;      // AOV pass
+  uint firstPixel;     // subtracted from the target's pixel index to give that within the band; background: row of the
+                       // picture that is the target's first
+  uint drawId;
   uint materialId;
   uint drawFlags;      // kDraw*
   float displayGain;   // pictures of codes only
@@ -98,6 +106,22 @@ struct ShadowLight {
   uint viewCount;
   float radius;  // for soft shadows: scene units, of parallel light radians
 };
+
+// Where a draw's mirror image comes from: the background, the picture of a flat mirror (of the band, as the mirror
+// shows it: column x of the picture is column width - 1 - x of what is drawn), or a cube of six faces of size * size
+// pixels, along +x, -x, +y, -y, +z, -z. A face along s e_a has e_b to its right and -s e_c up, (a, b, c) a turn of (x,
+// y, z); one pixel all around belongs to its neighbors.
+struct Reflector {
+  uint kind;
+  uint firstTexel;
+  uint size;
+  vec3 center;  // of the cube; render space
+  vec3 lower;   // what the cube shows is taken to lie on this box; render space
+  vec3 upper;
+};
+CL_CONST uint kReflectorBackground = 0u;
+CL_CONST uint kReflectorPicture = 1u;
+CL_CONST uint kReflectorCube = 2u;
 
 // Passes that draw a view.
 struct ShadowPush {

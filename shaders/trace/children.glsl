@@ -15,12 +15,6 @@ struct NewRay {
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
 
-// A mirrored ray about a shading normal may point below the surface: it is then mirrored about the surface itself.
-vec3 mirrorRay(vec3 d, vec3 n, vec3 ng) {
-  vec3 r = safeNormalize(reflect(d, n), ng);
-  return dot(r, ng) > 0.0 ? r : safeNormalize(reflect(d, ng), ng);
-}
-
 // Nodes for the rays of all lanes with one atomic per counter: three counts of up to ten bits travel in one word.
 // Returns this lane's first node.
 uint allocateNodes(bool reflects, uint transmitted, bool bends) {
@@ -109,8 +103,7 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
 
   vec3 mirrorWeight = vec3(0.0);
   if (CL_HAS(reflection) && (m.flags & kMaterialMirror) != 0u) {
-    float schlick = schlickWeight(cosI);
-    mirrorWeight = classic ? m.mirror : s.specularColor + (1.0 - s.specularColor) * schlick;
+    mirrorWeight = mirrorShare(m, s, cosI);
   }
   vec3 throughWeight = CL_HAS(transparency) || bends ? (classic ? vec3(m.transmission) : s.transmissionColor) : vec3(0.0);
   if (!classic) throughWeight *= s.opacity;  // glass passes light where it covers

@@ -12,7 +12,8 @@
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"
 #include "trace/camera.glsl"
-#include "trace/optics.glsl"
+#include "shade/optics.glsl"
+#include "shade/mirror.glsl"
 #include "trace/viewer.glsl"
 
 layout(local_size_x = 64) in;

@@ -125,6 +125,21 @@ void mirror(GltfBuilder& gltf) {
                       {.ka = dvec3(0.02), .kd = dvec3(0.05), .ks = dvec3(0.5), .shininess = 100.0, .kr = dvec3(0.9)}));
 }
 
+// A wall that is a mirror, turned, behind a ball and a leaning tile.
+void flatMirror(GltfBuilder& gltf) {
+  const int glass = gltf.addMaterial(
+      classicMaterial("looking glass", {.ka = dvec3(0.02), .kd = dvec3(0.05), .kr = dvec3(0.8, 0.85, 0.8)}));
+  const Primitive wall = withoutUv(gridMesh({0.2, 1.2, -1.2}, {1.4, 0.0, 0.4}, {0.0, 1.1, 0.0}, 4));
+  gltf.addRoot(meshNode("looking glass", gltf.addMesh("looking glass", {{gltf.addGeometry(wall), glass}})));
+  const int blue = gltf.addMaterial(
+      classicMaterial("blue", {.model = "lambert", .ka = {0.2, 0.3, 0.7}, .kd = {0.2, 0.3, 0.7}, .doubleSided = true}));
+  const Primitive tile = withoutUv(gridMesh({-0.85, 0.7, 0.5}, {0.5, 0.1, 0.2}, {0.0, 0.6, -0.3}, 4));
+  gltf.addRoot(meshNode("tile", gltf.addMesh("tile", {{gltf.addGeometry(tile), blue}})));
+  const int red = gltf.addMaterial(paint("red", {0.75, 0.15, 0.12}));
+  gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.5, 0.0, 0.0}}, red, {0.7, 0.5, 0.5}));
+  addStage(gltf);
+}
+
 void refraction(GltfBuilder& gltf) {
   const int red = gltf.addMaterial(paint("red", {0.75, 0.15, 0.12}));
   gltf.addRoot(shapeNode(gltf, "red ball", {.params = {0.4, 0.0, 0.0}}, red, {0.9, 0.4, -1.6}));
@@ -208,6 +223,7 @@ constexpr SceneRow kRows[] = {
     {"feature/cookTorrance", "illumination model cookTorrance: a metal and a plastic ball", cookTorrance},
     {"feature/unlit", "KHR_materials_unlit", unlit},
     {"feature/mirror", "reflectionFactor of the classic material", mirror},
+    {"feature/flat_mirror", "a flat mirror, which raster methods can show too", flatMirror},
     {"feature/refraction", "transmission with an index of refraction and a volume", refraction},
     {"feature/transparency", "classic transparency kt", transparency},
     {"feature/emission", "emissive factor and strength", emission},
