@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/time.h"
+#include "effects/approximations.h"
 #include "effects/effects.h"
 #include "effects/material_traits.h"
 #include "raster/raster.h"
@@ -42,8 +43,9 @@ std::vector<EffectRecord> recordsOf(const Plan& plan) {
   return records;
 }
 
-// What a raster method cannot show of this scene, said once per material.
+// What the method cannot show of this scene, said once per material.
 void warnOfApproximations(const Scene& scene, const Plan& plan, const RenderSettings& s) {
+  for (const std::string& text : approximationsOf(scene, s)) logWarning(text);
   if (isTraced(s.method) || !plan.has(Effect::transparency)) return;
   for (const Material& m : scene.materials) {
     if (refracts(m)) {

@@ -48,6 +48,7 @@ class Analysis {
     lights();
     shapes();
     materialRules();
+    reflectance();
     vertexColors();
     sides();
     whatRaysDo();
@@ -144,6 +145,29 @@ class Analysis {
 
   void materialRules() {
     for (const MaterialRule& rule : surfaceRules()) addByMaterial(rule);
+  }
+
+  // What settings ask of the models, where a material in use has one that heeds them.
+  void reflectance() {
+    const auto index = [](const Material& m) {
+      return m.model == IlluminationModel::cookTorrance || m.model == IlluminationModel::cookTorrance1982 ||
+             hasAngularSpecular(m);
+    };
+    const std::string who = firstMaterial(index);
+    const bool exact = settings_.fresnel == Fresnel::exact ||
+                       (settings_.fresnel == Fresnel::ofModel &&
+                        !firstMaterial([](const Material& m) {
+                           return m.model == IlluminationModel::cookTorrance1982 || hasAngularSpecular(m);
+                         }).empty());
+    add(Effect::exactFresnel, "exactFresnel", exact && !who.empty(),
+        who.empty() ? "no material in use reflects by Fresnel's equations"
+                    : (exact ? who + " reflects by Fresnel's equations" : "Schlick's fit is wanted"));
+    const std::string rough =
+        firstMaterial([](const Material& m) { return m.model == IlluminationModel::cookTorrance; });
+    const bool compensates = settings_.energyCompensation && !rough.empty();
+    add(Effect::energyCompensation, "energyCompensation", compensates,
+        compensates ? "asked for, and " + rough + " has microfacets"
+                    : (settings_.energyCompensation ? "no material in use has glTF's microfacets" : "switched off"));
   }
 
   void vertexColors() {

@@ -12,7 +12,7 @@
 namespace crosslight {
 
 // In Plan::effects.
-constexpr std::uint32_t bitOf(Effect effect) { return 1u << static_cast<std::uint32_t>(effect); }
+constexpr std::uint64_t bitOf(Effect effect) { return std::uint64_t{1} << static_cast<std::uint32_t>(effect); }
 
 struct EffectVerdict {
   std::string name;  // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
@@ -25,7 +25,7 @@ struct Plan {
   std::uint32_t models = 0;
   std::uint32_t lights = 0;
   std::uint32_t shapes = 0;
-  std::uint32_t effects = 0;
+  std::uint64_t effects = 0;
   std::vector<EffectVerdict> verdicts;
 
   bool has(Effect effect) const { return (effects & bitOf(effect)) != 0; }

@@ -15,10 +15,13 @@ namespace {
 constexpr std::uint64_t kFewestRays = 1u << 19;
 
 // What materials decide by themselves; the rest of a plan (shadows, two-sidedness, absorption on a ray's way) is kept.
-constexpr std::uint32_t kOfMaterials =
+constexpr std::uint64_t kOfMaterials =
     bitOf(Effect::baseColorTexture) | bitOf(Effect::metallicRoughnessTexture) | bitOf(Effect::normalMap) |
     bitOf(Effect::occlusionTexture) | bitOf(Effect::emissiveTexture) | bitOf(Effect::alphaMask) |
-    bitOf(Effect::transparency) | bitOf(Effect::reflection) | bitOf(Effect::refraction);
+    bitOf(Effect::transparency) | bitOf(Effect::reflection) | bitOf(Effect::refraction) | bitOf(Effect::bumpMap) |
+    bitOf(Effect::clearcoat) | bitOf(Effect::sheen) | bitOf(Effect::anisotropy) | bitOf(Effect::iridescence) |
+    bitOf(Effect::diffuseTransmission) | bitOf(Effect::mipmaps) | bitOf(Effect::specularLayer) |
+    bitOf(Effect::transmissionTexture) | bitOf(Effect::diffuseRoughness) | bitOf(Effect::angularSpecular);
 
 // What surfaces have in common that share a kernel.
 struct Signature {
@@ -26,7 +29,7 @@ struct Signature {
   bool lit = false;
   bool usesLights = false;
   std::uint32_t model = 0;
-  std::uint32_t effects = 0;
+  std::uint64_t effects = 0;
 
   auto operator<=>(const Signature&) const = default;
 };

@@ -1,9 +1,11 @@
 #include "effects/material_traits.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "effects/effects.h"
+#include "scene/material_textures.h"
 
 namespace crosslight {
 
@@ -13,6 +15,15 @@ namespace {
 constexpr float kSmoothAlpha = 1e-3f;
 
 bool anyPositive(const glm::vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+bool hasMipmaps(const Material& m) {
+  const auto uses = texturesOf(m);
+  return std::any_of(uses.begin(), uses.end(),
+                     [](const TextureUse* use) { return use->present() && use->mip != Mip::none; });
+}
+
+// The layers of glTF's extensions count.
+bool isLayered(const Material& m) { return m.model == IlluminationModel::cookTorrance; }
 
 constexpr std::array kSurfaceRules{
     MaterialRule{Effect::baseColorTexture, "baseColorTexture", "has a base color texture",
@@ -27,7 +38,28 @@ constexpr std::array kSurfaceRules{
                  [](const Material& m) { return m.emissiveTexture.present(); }},
     MaterialRule{Effect::alphaMask, "alphaMask", "is cut by an alpha mask",
                  [](const Material& m) { return m.alphaMode == AlphaMode::mask; }},
-    MaterialRule{Effect::transparency, "transparency", "lets something show through", isTransparent}};
+    MaterialRule{Effect::transparency, "transparency", "lets something show through", isTransparent},
+    MaterialRule{Effect::bumpMap, "bumpMap", "has a bump map",
+                 [](const Material& m) { return m.bumpTexture.present(); }},
+    MaterialRule{Effect::mipmaps, "mipmaps", "has a texture with levels", hasMipmaps},
+    MaterialRule{Effect::clearcoat, "clearcoat", "has a clear coat",
+                 [](const Material& m) { return isLayered(m) && m.layers.clearcoat > 0; }},
+    MaterialRule{Effect::sheen, "sheen", "has a sheen",
+                 [](const Material& m) { return isLayered(m) && anyPositive(m.layers.sheenColor); }},
+    MaterialRule{Effect::anisotropy, "anisotropy", "reflects unlike along and across its tangents",
+                 [](const Material& m) { return isLayered(m) && m.layers.anisotropy > 0; }},
+    MaterialRule{Effect::iridescence, "iridescence", "has an iridescent film",
+                 [](const Material& m) { return isLayered(m) && m.layers.iridescence > 0; }},
+    MaterialRule{Effect::diffuseTransmission, "diffuseTransmission", "scatters light to its other side",
+                 [](const Material& m) { return isLayered(m) && m.layers.diffuseTransmission > 0; }},
+    MaterialRule{Effect::specularLayer, "specularLayer", "states the strength or color of its reflection",
+                 [](const Material& m) { return isLayered(m) && m.layers.hasSpecular; }},
+    MaterialRule{Effect::transmissionTexture, "transmissionTexture", "has a transmission texture",
+                 [](const Material& m) { return isLayered(m) && m.transmissionTexture.present(); }},
+    MaterialRule{Effect::diffuseRoughness, "diffuseRoughness", "is rough where it reflects diffusely",
+                 [](const Material& m) { return isLayered(m) && m.layers.diffuseRoughness > 0; }},
+    MaterialRule{Effect::angularSpecular, "angularSpecular", "has a highlight that grows with the angle",
+                 hasAngularSpecular}};
 constexpr std::array kRayRules{MaterialRule{Effect::reflection, "reflection", "reflects like a mirror", isMirror},
                                MaterialRule{Effect::refraction, "refraction", "refracts", refracts},
                                MaterialRule{Effect::absorption, "absorption", "absorbs light on its way", absorbs}};
@@ -41,7 +73,18 @@ bool isClassic(const Material& m) {
 bool isMirror(const Material& m) {
   if (isClassic(m)) return anyPositive(m.classic.reflectionFactor) || refracts(m);
   const float alpha = m.perceptualRoughnessFactor * m.perceptualRoughnessFactor;
-  return m.model == IlluminationModel::cookTorrance && (alpha < kSmoothAlpha || refracts(m));
+  return m.model == IlluminationModel::cookTorrance && (alpha < kSmoothAlpha || refracts(m) || coatMirrors(m));
+}
+
+bool coatMirrors(const Material& m) {
+  const float alpha = m.layers.clearcoatRoughness * m.layers.clearcoatRoughness;
+  return isLayered(m) && m.layers.clearcoat > 0 && alpha < kSmoothAlpha;
+}
+
+bool hasAngularSpecular(const Material& m) {
+  const bool highlights = m.model == IlluminationModel::phong || m.model == IlluminationModel::blinnPhong ||
+                          m.model == IlluminationModel::modifiedPhong;
+  return highlights && m.classic.angularSpecular;
 }
 
 float transmissionOf(const Material& m) {
@@ -69,8 +112,8 @@ bool isLit(const Material& m) {
 std::span<const MaterialRule> surfaceRules() { return kSurfaceRules; }
 std::span<const MaterialRule> rayRules() { return kRayRules; }
 
-std::uint32_t effectsOf(const Material& m) {
-  std::uint32_t bits = 0;
+std::uint64_t effectsOf(const Material& m) {
+  std::uint64_t bits = 0;
   for (const auto rules : {surfaceRules(), rayRules()}) {
     for (const MaterialRule& rule : rules) bits |= rule.test(m) ? bitOf(rule.effect) : 0u;
   }

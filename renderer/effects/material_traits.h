@@ -18,6 +18,10 @@ bool refracts(const Material& material);
 // Something shows through: blending, kt or transmission.
 bool isTransparent(const Material& material);
 bool absorbs(const Material& material);
+// A classic highlight whose coefficient follows the angle of incidence.
+bool hasAngularSpecular(const Material& material);
+// The clear coat is so smooth that it sends a mirrored ray.
+bool coatMirrors(const Material& material);
 // Light that falls on it from outside may come back: else no shadow ray is worth sending.
 bool isLit(const Material& material);
 
@@ -31,6 +35,6 @@ struct MaterialRule {
 std::span<const MaterialRule> surfaceRules();  // for all methods
 std::span<const MaterialRule> rayRules();      // for rays alone
 // Bits of all rules that a material passes.
-std::uint32_t effectsOf(const Material& material);
+std::uint64_t effectsOf(const Material& material);
 
 }  // namespace crosslight

@@ -37,17 +37,25 @@ std::uint32_t depthVaryingsOf(const Plan& plan) {
 std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan) {
   std::uint32_t bits = 0;
   for (const Effect e : {Effect::baseColorTexture, Effect::metallicRoughnessTexture, Effect::normalMap,
-                         Effect::occlusionTexture, Effect::emissiveTexture}) {
+                         Effect::occlusionTexture, Effect::emissiveTexture, Effect::clearcoat, Effect::sheen,
+                         Effect::anisotropy, Effect::iridescence, Effect::diffuseTransmission, Effect::specularLayer,
+                         Effect::transmissionTexture, Effect::diffuseRoughness, Effect::bumpMap}) {
     if (plan.has(e)) bits |= shared::kVaryingUvs;
   }
   if (plan.has(Effect::vertexColors)) bits |= shared::kVaryingColor;
   if (plan.has(Effect::fog) || plan.has(Effect::smoke)) bits |= shared::kVaryingPosition;
   if (settings.rasterReflections != RasterReflections::off && plan.has(Effect::reflection))
     bits |= shared::kVaryingPosition | shared::kVaryingNormal;
+  // Layers dim what is textured below them by the angle to the viewer, per fragment by any method.
+  if (plan.has(Effect::clearcoat) || plan.has(Effect::sheen)) bits |= shared::kVaryingPosition | shared::kVaryingNormal;
+  // A pixel's size on the surface hangs on its distance.
+  if (plan.has(Effect::mipmaps)) bits |= shared::kVaryingPosition;
   if (settings.method != Method::phong) return bits;
   // Lighting per fragment; at a centroid (flat.centroid) the triangle's corners are read instead.
   bits |= shared::kVaryingPosition | shared::kVaryingNormal;
-  if (plan.has(Effect::normalMap)) bits |= shared::kVaryingTangent;
+  for (const Effect e : {Effect::normalMap, Effect::clearcoat, Effect::anisotropy}) {
+    if (plan.has(e)) bits |= shared::kVaryingTangent;
+  }
   return bits;
 }
 

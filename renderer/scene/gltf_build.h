@@ -26,9 +26,11 @@ struct NodeShape {
 };
 NodeShape readNodeShape(const JsonAt& extension, std::size_t materialCount);
 
-// Reads a texture info by its owner and key; none where the key is missing.
+// gltf_material_layers.cpp: Khronos' extensions of metallic-roughness materials but for those that say how light
+// passes. `texture` reads a texture info by its owner and key; none where the key is missing.
 using TextureReader = std::function<TextureUse(const JsonAt& owner, const char* key)>;
 void readDisplacement(const JsonAt& extension, const TextureReader& texture, Material& material);
+void readMaterialLayers(const JsonAt& material, const TextureReader& texture, MaterialLayers& layers);
 
 // gltf_smoke.cpp
 Smoke readSmoke(const Source& source, const JsonAt& extension);

@@ -24,9 +24,36 @@ float number(const JsonAt& object, const char* key, float fallback, const Range&
   return static_cast<float>(numberOr(object, key, double{fallback}, range));
 }
 
-IlluminationModel modelOf(const std::string& name) {
-  if (name == "lambert") return IlluminationModel::lambert;
-  return name == "phong" ? IlluminationModel::phong : IlluminationModel::blinnPhong;
+// Those of CL_ILLUMINATION_MODELS that a classic material may have.
+IlluminationModel modelOf(const JsonAt& model) {
+  const std::string name =
+      model.oneOf({"lambert", "phong", "blinnPhong", "modifiedPhong", "orenNayar", "cookTorrance1982"});
+#define CL_MODEL_ROW(value, row, ...) \
+  if (name == #row) return IlluminationModel::row;
+  CL_ILLUMINATION_MODELS(CL_MODEL_ROW)
+#undef CL_MODEL_ROW
+  model.fail("is a model without code");
+}
+
+// Oren and Nayar's angle, or the slope of Cook and Torrance: neither formula is meant for more than a right angle.
+constexpr double kLargestRoughness = 1.5707963267948966;
+
+// What belongs to one model alone.
+void readModelParameters(const JsonAt& extension, Material& material) {
+  ClassicMaterial& classic = material.classic;
+  const bool grooves = material.model == IlluminationModel::cookTorrance1982;
+  classic.roughness = number(extension, "roughness", grooves ? 0.3f : 0.0f, Range::between(0.0, kLargestRoughness));
+  if (grooves && classic.roughness == 0.0f) extension.at("roughness").fail("must be above 0 for cookTorrance1982");
+  if (const auto coefficient = extension.find("specularCoefficient"))
+    classic.angularSpecular = coefficient->oneOf({"constant", "angular"}) == "angular";
+  if (const auto index = extension.find("refractiveIndex")) {
+    classic.hasIndex = true;
+    classic.refractiveIndex = index->vec3(Range::above(0.0));
+  }
+  classic.extinction = vec3Or(extension, "extinction", classic.extinction, Range::atLeast(0.0));
+  if (!classic.hasIndex && extension.find("extinction")) extension.fail("extinction needs a refractiveIndex beside it");
+  const bool indexed = classic.hasIndex && !grooves;
+  if (indexed) extension.at("refractiveIndex").warn("counts for the model cookTorrance1982 alone");
 }
 
 FogMode fogModeOf(const std::string& name) {
@@ -69,9 +96,11 @@ ShapeKind kindOf(const JsonAt& kind) {
 
 void readClassicMaterial(const JsonAt& extension, Material& material) {
   extension.onlyKnows({"model", "preset", "ambientFactor", "diffuseFactor", "specularFactor", "shininess",
-                       "transparency", "reflectionFactor"});
+                       "transparency", "reflectionFactor", "roughness", "specularCoefficient", "refractiveIndex",
+                       "extinction"});
   ClassicMaterial& classic = material.classic;
-  material.model = modelOf(extension.at("model").oneOf({"lambert", "phong", "blinnPhong"}));
+  material.model = modelOf(extension.at("model"));
+  readModelParameters(extension, material);
   if (const auto name = extension.find("preset")) {
     const auto preset = findMaterialPreset(name->string());
     if (!preset) name->fail("'" + name->string() + "' is not in the material table; there are " + presetNames());

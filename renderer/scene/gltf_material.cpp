@@ -32,6 +32,25 @@ void readTextureTransform(const JsonAt& info, TextureUse& use) {
   use.texCoord = static_cast<int>(integerOr(*transform, "texCoord", use.texCoord, std::numeric_limits<int>::max()));
 }
 
+// Without levels a minified texture is read as a magnified one; so it is where the file leaves the filter open.
+void readMinification(int minFilter, TextureUse& use) {
+  switch (minFilter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      use.mip = Mip::nearest;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+      use.mip = Mip::linear;
+      break;
+    default:
+      break;
+  }
+  const bool nearest = minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
+                       minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+  use.minFilter = nearest ? Filter::nearest : Filter::linear;
+}
+
 class MaterialBuilder {
  public:
   MaterialBuilder(const Source& source, Scene& scene)
@@ -97,11 +116,11 @@ class MaterialBuilder {
       return use;
     }
     if (texture.sampler >= 0) {
-      // Minification filters choose mipmaps; every technique reads level 0 for now.
       const tinygltf::Sampler& sampler = source_.model.samplers[static_cast<std::size_t>(texture.sampler)];
       use.wrapU = wrapOf(sampler.wrapS);
       use.wrapV = wrapOf(sampler.wrapT);
       use.filter = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::nearest : Filter::linear;
+      readMinification(sampler.minFilter, use);
     }
     use.image = image(static_cast<std::size_t>(texture.source));
     return use;
@@ -141,7 +160,13 @@ class MaterialBuilder {
     if (const auto ior = at.extension("KHR_materials_ior")) readIor(*ior, out);
     if (const auto transmission = at.extension("KHR_materials_transmission")) {
       out.transmissionFactor = static_cast<float>(numberOr(*transmission, "transmissionFactor", 0.0, kUnit));
-      ignoreTexture(*transmission, "transmissionTexture");
+      out.transmissionTexture = extensionTexture(*transmission, "transmissionTexture");
+    }
+    readMaterialLayers(
+        at, [this](const JsonAt& owner, const char* key) { return extensionTexture(owner, key); }, out.layers);
+    if (const auto bump = at.extension("EXT_materials_bump")) {
+      out.bumpTexture = extensionTexture(*bump, "bumpTexture");
+      out.bumpFactor = static_cast<float>(numberOr(*bump, "bumpFactor", 1.0));
     }
     if (const auto volume = at.extension("KHR_materials_volume")) readVolume(*volume, out);
     if (const auto scatter = at.extension("KHR_materials_volume_scatter")) checkVolumeScatter(*scatter);
@@ -172,7 +197,9 @@ class MaterialBuilder {
     if (const auto distance = volume.find("attenuationDistance")) {
       out.attenuationDistance = static_cast<float>(distance->number(Range::above(0.0)));
     }
-    ignoreTexture(volume, "thicknessTexture");
+    // Where light leaves a body is found by rays; raster lets it pass at the surface. Neither asks for a thickness.
+    if (const auto thickness = volume.find("thicknessTexture"))
+      source_.document.notes.add(*thickness, "does not count: the mesh itself is the body that light passes through");
   }
 
   // A draft. What the medium takes away is KHR_materials_volume's attenuation already, which counts; what it scatters

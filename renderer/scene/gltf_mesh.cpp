@@ -149,8 +149,13 @@ void finish(Primitive& primitive, const Material& material, const JsonAt& at, Do
     if (repairTangents(primitive) > 0) {
       document.notes.add(at, "has tangents that cannot be used; they become some direction across the normal");
     }
-  } else if (const TextureUse* along = tangentTexture(material); along && !uvOf(primitive, *along).empty()) {
-    makeTangents(primitive, uvOf(primitive, *along));
+  } else if (const TextureUse* along = tangentTexture(material)) {
+    if (!uvOf(primitive, *along).empty()) {
+      makeTangents(primitive, uvOf(primitive, *along));
+    } else if (material.layers.anisotropy > 0) {
+      document.notes.add(
+          at, "has neither tangents nor texture coordinates to make them of; it reflects alike in all directions");
+    }
   }
 }
 

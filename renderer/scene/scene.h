@@ -29,6 +29,7 @@ struct TextureImage {
 
 enum class Wrap { repeat, mirroredRepeat, clampToEdge };
 enum class Filter { linear, nearest };
+enum class Mip { none, nearest, linear };  // which levels a minified texture reads
 
 // A material's use of an image.
 struct TextureUse {
@@ -36,7 +37,9 @@ struct TextureUse {
   int texCoord = 0;  // 0 or 1
   Wrap wrapU = Wrap::repeat;
   Wrap wrapV = Wrap::repeat;
-  Filter filter = Filter::linear;  // magnification
+  Filter filter = Filter::linear;     // magnification
+  Filter minFilter = Filter::linear;  // minification, within a level
+  Mip mip = Mip::none;
   // KHR_texture_transform, as in its specification: uv' = translation * rotation * scale * uv.
   glm::vec2 offset{0.0f};
   float rotation = 0.0f;  // radians, counter-clockwise
@@ -56,6 +59,51 @@ struct ClassicMaterial {
   float shininess = 0.0f;            // n >= 0
   float transparency = 0.0f;         // kt: 1 is fully transparent, I = (1 - kt) Irefl + kt Itrans
   glm::vec3 reflectionFactor{0.0f};  // kr: weight of the mirror ray
+  float roughness = 0.0f;            // orenNayar: sigma, radians; cookTorrance1982: m, root mean square slope
+  bool angularSpecular = false;      // W(theta) instead of ks: ks at normal incidence, 1 at grazing angles
+  bool hasIndex = false;             // cookTorrance1982: n + ik per channel; else from ks
+  glm::vec3 refractiveIndex{1.5f};
+  glm::vec3 extinction{0.0f};
+};
+
+// What glTF's extensions lay over or into a metallic-roughness surface; the defaults are those of a file without them.
+// Texture channels as in MaterialRecord.
+struct MaterialLayers {
+  float diffuseRoughness = 0.0f;  // KHR_materials_diffuse_roughness
+  TextureUse diffuseRoughnessTexture;
+
+  bool hasSpecular = false;  // KHR_materials_specular
+  float specularFactor = 1.0f;
+  glm::vec3 specularColor{1.0f};
+  TextureUse specularTexture;
+  TextureUse specularColorTexture;  // sRGB
+
+  float clearcoat = 0.0f;  // KHR_materials_clearcoat
+  float clearcoatRoughness = 0.0f;
+  float clearcoatNormalScale = 1.0f;
+  TextureUse clearcoatTexture;
+  TextureUse clearcoatRoughnessTexture;
+  TextureUse clearcoatNormalTexture;
+
+  glm::vec3 sheenColor{0.0f};  // KHR_materials_sheen
+  float sheenRoughness = 0.0f;
+  TextureUse sheenColorTexture;  // sRGB
+  TextureUse sheenRoughnessTexture;
+
+  float anisotropy = 0.0f;          // KHR_materials_anisotropy
+  float anisotropyRotation = 0.0f;  // radians, counter-clockwise from the tangent
+  TextureUse anisotropyTexture;
+
+  float iridescence = 0.0f;  // KHR_materials_iridescence
+  float filmIndex = 1.3f;
+  float filmThinnest = 100.0f, filmThickest = 400.0f;  // nanometers
+  TextureUse iridescenceTexture;
+  TextureUse filmThicknessTexture;
+
+  float diffuseTransmission = 0.0f;  // KHR_materials_diffuse_transmission
+  glm::vec3 diffuseTransmissionColor{1.0f};
+  TextureUse diffuseTransmissionTexture;
+  TextureUse diffuseTransmissionColorTexture;  // sRGB
 };
 
 struct Material {
@@ -78,16 +126,20 @@ struct Material {
   float occlusionStrength = 1.0f;
   float indexOfRefraction = 1.5f;   // KHR_materials_ior; 0 means infinite F0
   bool hasIor = false;              // the file states it
-  float transmissionFactor = 0.0f;  // KHR_materials_transmission (its texture is named in a warning)
-  float dispersion = 0.0f;          // KHR_materials_dispersion: 20 / Abbe number
+  float transmissionFactor = 0.0f;  // KHR_materials_transmission
+  TextureUse transmissionTexture;
+  float dispersion = 0.0f;  // KHR_materials_dispersion: 20 / Abbe number
   // CROSSLIGHT_materials_dielectric: where bodies overlap the highest priority counts, of equals the one entered last.
   std::optional<int> priority;
   bool hasVolume = false;  // KHR_materials_volume: the surface bounds a body; else it is thin
   glm::vec3 attenuationColor{1.0f};
   float attenuationDistance = std::numeric_limits<float>::infinity();
+  TextureUse bumpTexture;          // EXT_materials_bump: height in the red channel
+  float bumpFactor = 1.0f;         // scene units per texel value
   TextureUse displacementTexture;  // CROSSLIGHT_materials_displacement: height in the red channel
   float displacementScale = 1.0f, displacementBias = 0.0f;  // scene units
-  ClassicMaterial classic;                                  // for lambert, phong, blinnPhong
+  ClassicMaterial classic;                                  // for all models but cookTorrance and unlit
+  MaterialLayers layers;                                    // for cookTorrance
 };
 
 // Triangle list. Normals are never missing: where the file has none the vertices are split and the normals are the

@@ -19,6 +19,7 @@ enum class DepthPrepass { automatic, on, off };         // phong: same image, ot
 enum class FogDistance { ray, depth };                  // what fog goes by: the way of the light, or eye depth
 enum class RasterShadows { off, maps, rays };           // of flat, gouraud and phong: none, from depth maps, exact
 enum class Dispersion { off, rgb };                     // of refracted rays: one, or one for each of three colors
+enum class Fresnel { ofModel, schlick, exact };         // of surfaces under direct light, as kFresnel*
 // Mirrors of flat, gouraud and phong: not shown; the background alone; by cube maps; flat ones drawn, others by cube
 // maps.
 enum class RasterReflections { off, environment, probes, mirrors };
@@ -68,8 +69,10 @@ struct RenderSettings {
   bool infiniteViewer = false;
   FogDistance fogDistance = FogDistance::ray;  // depth: as OpenGL, whose fog leaves the background alone
   TwoSided twoSided = TwoSided::material;
+  Fresnel fresnel = Fresnel::ofModel;
   std::uint32_t displacementLevel = 4;  // every edge of a displaced mesh is split into 2^n, unless displacementEdge
   float displacementEdge = 0.0f;        // pixels: edges are split until none is longer on the screen; 0: by the level
+  bool energyCompensation = false;      // of GGX: what one scattering event loses on rough surfaces is added
   FlatVertex flatVertex = FlatVertex::first;
   bool hiddenLines = false;                 // wireframe: draw hidden edges too
   bool clampVertexColors = false;           // gouraud and flat: as OpenGL's fixed function does; AOVs are unclamped

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bindings.h"
 #include "effects/media.h"
+#include "upload/albedo_tables.h"
 #include "upload/environment_tables.h"
 
 namespace crosslight {
@@ -35,6 +36,12 @@ std::vector<glm::vec4> densityTexels(const Smoke& smoke) {
   for (std::size_t i = 0; i < smoke.densities.size(); ++i)
     texels[i / 4][static_cast<glm::length_t>(i % 4)] = smoke.densities[i];
   return texels;
+}
+
+// Once per process: frames share it.
+const std::vector<glm::vec4>& albedoTables() {
+  static const std::vector<glm::vec4> tables = makeAlbedoTables(kAlbedoTableSize);
+  return tables;
 }
 
 }  // namespace
@@ -83,6 +90,9 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
   if (shines.present() && hasSmoke(scene.atmosphere.smoke)) environmentMean_ = meanRadiance(*shines.map);
   smokeGrid_ =
       gpu::Buffer::of(device, "densities of smoke", densityTexels(scene.atmosphere.smoke), gpu::useUniformTexel);
+  albedoTables_ = gpu::Buffer::of(device, "albedo tables",
+                                  needsAlbedoTables(scene, settings) ? albedoTables() : std::vector<glm::vec4>(1),
+                                  gpu::useUniformTexel);
   positions_ = moved("positions", flat_.positions, gpu::useUniformTexel | gpu::useVertex);
   attributes_ = moved("vertex attributes", flat_.attributes, gpu::useUniformTexel | gpu::useVertex);
   indices_ = moved("indices", flat_.indices, gpu::useUniformTexel | gpu::useIndex);
@@ -153,6 +163,7 @@ void GpuScene::bind(gpu::BindingSet& set) const {
   set.set(kBindIndices, indices_);
   set.set(kBindShapes, shapes_);
   set.set(kBindTexels, texels_);
+  set.set(kBindAlbedoTables, albedoTables_);
   set.set(kBindBvhNodes, nodes_);
   set.set(kBindBvhPrimitives, primitives_);
   set.set(kBindWideNodes, wideNodes_);
@@ -181,6 +192,7 @@ std::vector<gpu::Binding> sceneBindings(std::initializer_list<std::uint32_t> mor
                                      {kBindIndices, texelBufferUint4},
                                      {kBindShapes, storageBuffer},
                                      {kBindTexels, texelBufferFloat4},
+                                     {kBindAlbedoTables, texelBufferFloat4},
                                      {kBindBvhNodes, texelBufferUint4},
                                      {kBindBvhPrimitives, texelBufferUint4},
                                      {kBindWideNodes, texelBufferUint4},
@@ -203,7 +215,8 @@ gpu::Constants constantsOf(const Plan& plan, std::uint32_t variant) {
   return {{kSpecModels, plan.models},
           {kSpecLights, plan.lights},
           {kSpecShapes, plan.shapes},
-          {kSpecEffects, plan.effects},
+          {kSpecEffects, static_cast<std::uint32_t>(plan.effects)},
+          {kSpecMoreEffects, static_cast<std::uint32_t>(plan.effects >> 32)},
           {kSpecVariant, variant}};
 }
 

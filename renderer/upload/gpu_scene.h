@@ -53,7 +53,8 @@ class GpuScene {
   std::uint32_t cameraMedium_ = shared::kNoId, optics_ = 0;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,
-      environment_, smokeGrid_, nodes_, primitives_, wideNodes_, quadNodes_, instances_, instanceTriangles_;
+      environment_, smokeGrid_, albedoTables_, nodes_, primitives_, wideNodes_, quadNodes_, instances_,
+      instanceTriangles_;
   gpu::BoxSearch triangleBoxes_;  // empty: kernels walk trees
 };
 

@@ -4,5 +4,5 @@ Lobe evaluateBlinnPhong(SurfacePoint s, vec3 wo, vec3 wi) {
   float NdotL = dot(s.n, wi);
   vec3 h = safeNormalize(wo + wi, s.n);
   float specular = powerOfCosine(s.n, h, s.shininess);
-  return Lobe(max(NdotL, 0.0), NdotL > 0.0 ? specular : 0.0, 0.0);
+  return classicLobe(s, max(NdotL, 0.0), NdotL > 0.0 ? specular : 0.0, NdotL);
 }

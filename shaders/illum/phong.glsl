@@ -4,5 +4,5 @@ Lobe evaluatePhong(SurfacePoint s, vec3 wo, vec3 wi) {
   float NdotL = dot(s.n, wi);
   vec3 r = 2.0 * NdotL * s.n - wi;
   float specular = powerOfCosine(r, wo, s.shininess);
-  return Lobe(max(NdotL, 0.0), NdotL > 0.0 ? specular : 0.0, 0.0);
+  return classicLobe(s, max(NdotL, 0.0), NdotL > 0.0 ? specular : 0.0, NdotL);
 }

@@ -28,6 +28,16 @@ MaterialRecord vertexMaterial(uint id) {
   m.flags = materials[id].flags;
   m.shininess = materials[id].shininess;
   m.indexOfRefraction = materials[id].indexOfRefraction;
+  if (kReadsLayers) {
+    m.diffuseRoughness = materials[id].diffuseRoughness;
+    m.clearcoat = materials[id].clearcoat;
+    m.sheenColor = materials[id].sheenColor;
+    m.sheenRoughness = materials[id].sheenRoughness;
+    m.anisotropy = materials[id].anisotropy;
+    m.iridescence = materials[id].iridescence;
+    m.filmIndex = materials[id].filmIndex;
+    m.diffuseTransmission = materials[id].diffuseTransmission;
+  }
   return m;
 }
 
@@ -43,6 +53,7 @@ LightRecord vertexLight(uint index) {
 #define CL_LIGHT(index) vertexLight(index)
 #else
 #define CL_MATERIAL(id) drawMaterial
+#define CL_LAYER_SLOT(id, layer) drawMaterial.layerTextures[layer]
 #define CL_LIGHT(index) drawnLight(index)
 #endif
 #include "raster/shadow.glsl"

@@ -10,6 +10,7 @@
 #include "shade/shade.glsl"
 #include "raster/air.glsl"
 #include "shade/triangle.glsl"
+#include "shade/place_textures.glsl"
 #include "raster/fragment_in.glsl"
 #if !defined(CL_AOV) && !defined(CL_CODES)
 #include "raster/reflections.glsl"
@@ -29,6 +30,14 @@ layout(early_fragment_tests) in;
 layout(location = 0) out vec4 outColor;
 #endif
 
+void placeOnTriangle(inout SurfaceInput at) {
+  TriangleCorners c = cornersOf(pushed.firstTriangle + uint(gl_PrimitiveID));
+  vec3 ng = triangleNormal(c.v0, c.v1, c.v2, (pushed.drawFlags & kDrawFlipsWinding) != 0u);
+  TriangleUv uv = triangleUv(c.v0, c.v1, c.v2, uvsOf(c.i0), uvsOf(c.i1), uvsOf(c.i2), bumpReadsSecondSet(at.materialId));
+  vec3 way = frame.orthographic != 0u ? frame.cameraForward : safeNormalize(at.renderPos, frame.cameraForward);
+  placeTextures(uv, pixelWidthAtCamera() + dot(at.renderPos, frame.cameraForward) * pixelSpread(), way, ng, at);
+}
+
 SurfaceInput surfaceInput() {
   SurfaceInput at = interpolatedInput();
 #if defined(CL_AOV) || defined(CL_CENTROID)
@@ -40,6 +49,7 @@ SurfaceInput surfaceInput() {
   bool away = dot(facing, viewDirection(at.renderPos)) < 0.0;
   at.geometricNormal = away == gl_FrontFacing ? -facing : facing;
 #endif
+  if (kPlacesTextures) placeOnTriangle(at);
   return at;
 }
 
@@ -119,7 +129,8 @@ void main() {
     if (cutByMask(m, baseAlphaAt(m, at.uv0, at.uv1, at.colored ? at.color.a : 1.0))) discard;
   }
   SurfacePoint s = surfaceAt(at);
-  environmentMirrored_ = kReflects && (drawMaterial.flags & kMaterialMirror) != 0u;
+  if (kReflects) mirrored_ = mirroredLobes(drawMaterial);
+  if (kHasLayers) s = seenFrom(s, viewDirection(at.renderPos));
 #ifdef CL_AOV
   record(at, s, compose(s, lighting(s), frame.ambient));
 #elif defined(CL_LAYERS)

@@ -17,5 +17,7 @@ SurfaceInput interpolatedInput() {
   at.frontFacing = gl_FrontFacing;
   at.colored = (pushed.drawFlags & kDrawHasColors) != 0u;
   at.bothSides = false;
+  at.footprint = vec2(0.0);
+  at.alongU = at.alongV = vec3(0.0);
   return at;
 }

@@ -28,7 +28,9 @@ const bool kColorsMayVary = (specEffects & kColorEffects) != 0u;
 // Else the first of the sums is the whole color, and the only one. In integers: && and || make no constants.
 const uint kMany = uint(kSeparateSums) | (uint(kColorsMayVary) & uint(!kClampsColors));
 const bool kManySums = kMany != 0u;
-const bool kSumsHaveFresnel = (specModels & (1u << kModel_cookTorrance)) != 0u;  // else these are zero
+// Else these are zero.
+const bool kSumsHaveFresnel = ((specModels & (1u << kModel_cookTorrance | 1u << kModel_cookTorrance1982)) |
+                               (specMoreEffects & kEffect_angularSpecular)) != 0u;
 
 // Whether the surface's colors are the same all over a triangle: then its vertices are lit to the end. The material
 // decides, not the plan, so that specialized and full pipelines agree.

@@ -29,9 +29,10 @@ invariant gl_Position;
 #ifdef CL_SUMS_MODE
 LightSums lightVertex(bool frontFacing) {
   SurfaceInput at = SurfaceInput(inPosition, inNormal, safeNormalize(inNormal, vec3(0.0, 0.0, 1.0)), inTangent, inUv0,
-                                 inUv1, inColor, draws[pushed.drawId].materialId, frontFacing, (draws[pushed.drawId].flags & kDrawHasColors) != 0u, false);
+                                 inUv1, inColor, draws[pushed.drawId].materialId, frontFacing, (draws[pushed.drawId].flags & kDrawHasColors) != 0u, false, vec2(0.0), vec3(0.0), vec3(0.0));
   SurfacePoint s = surfaceAt(at);
-  environmentMirrored_ = kReflects && (materials[at.materialId].flags & kMaterialMirror) != 0u;
+  if (kReflects) mirrored_ = mirroredLobes(materials[at.materialId]);
+  if (kHasLayers) s = seenFrom(s, viewDirection(inPosition));
   LightSums sums = illuminate(s, viewDirection(inPosition), 0u, drawnLightCount());
   bool whole = !kSeparateSums && (kClampsColors || !colorsVary(materials[at.materialId], at.colored));
   if (kClampsColors && CL_HAS(emissiveTexture) && hasTexture(materials[at.materialId].emissiveTexture)) s.emission = vec3(0.0);

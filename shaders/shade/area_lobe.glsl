@@ -18,26 +18,39 @@ const float kInwardNodes[5] = {0.046910077030668004, 0.230765344947158454, 0.5, 
 const float kInwardWeights[5] = {0.118463442528094544, 0.239314335249683234, 0.284444444444444444, 0.239314335249683234,
                                  0.118463442528094544};
 
-Lobe noLobe() { return Lobe(0.0, 0.0, 0.0); }
+Lobe noLobe() { return lobeOf(0.0, 0.0); }
+// What colors do not multiply but `specular` would, alone: diffuse terms are not taken from here.
 Lobe addLobe(Lobe sum, Lobe lobe, float weight) {
-  return Lobe(sum.diffuse + weight * lobe.diffuse, sum.specular + weight * lobe.specular,
-              sum.fresnel + weight * lobe.fresnel);
+  return Lobe(vec3(0.0), sum.specular + weight * lobe.specular, sum.fresnel + weight * lobe.fresnel, vec3(0.0));
 }
 
-// About where 1 - cos to the lobe's axis halves the lobe.
-float lobeWidth(SurfacePoint s) {
-  float cosinePower = (s.model == kModel_phong ? 1.5 : 6.0) / (s.shininess + 1.0);
-  return s.model == kModel_cookTorrance ? 2.0 * s.alpha * s.alpha : cosinePower;
+// How many of the kLobe* there may be: each lies about an axis of its own.
+const uint kLobeParts = CL_HAS(sheen) ? 3u : (CL_HAS(clearcoat) ? 2u : 1u);
+
+bool hasLobe(SurfacePoint s, uint part) {
+  if (part == kLobeBase) return true;
+  if (s.model != kModel_cookTorrance) return false;
+  return part == kLobeCoat ? CL_HAS(clearcoat) && s.coatWeight > 0.0 : s.sheenAlpha > 0.0;
+}
+
+// About where 1 - cos to the lobe's axis halves the lobe; the sheen's is as wide as the hemisphere.
+float lobeWidth(SurfacePoint s, uint part) {
+  bool aboutR = s.model == kModel_phong || s.model == kModel_modifiedPhong;
+  float width = (aboutR ? 1.5 : 6.0) / (s.shininess + 1.0);
+  if (s.model == kModel_cookTorrance1982) width = 2.0 * s.roughnessAngle * s.roughnessAngle;
+  if (s.model == kModel_cookTorrance) width = 2.0 * s.alpha * s.alpha;
+  if (part == kLobeCoat) width = 2.0 * s.coatAlpha * s.coatAlpha;
+  return part == kLobeSheen ? 1.0 : width;
 }
 
 struct LobeAxis {
   vec3 r;       // unit, above the horizon
   float width;  // of 1 - cos
 };
-LobeAxis lobeAxis(SurfacePoint s, vec3 wo) {
+LobeAxis lobeAxis(SurfacePoint s, vec3 wo, float width) {
   vec3 r = 2.0 * dot(s.n, wo) * s.n - wo;
   float below = dot(s.n, r);
-  return LobeAxis(safeNormalize(below < 0.0 ? r - 2.0 * below * s.n : r, s.n), lobeWidth(s));
+  return LobeAxis(safeNormalize(below < 0.0 ? r - 2.0 * below * s.n : r, s.n), width);
 }
 
 struct Step {
@@ -172,45 +185,79 @@ Lobe glossyLobe(SurfacePoint s, vec3 wo, LobeAxis axis, AreaFace f) {
   return sum;
 }
 
-// Of 16 places on the face: the model's diffuse term over the cosine. Where the model is Lambert's the ratio is 1.
+// Of 16 places on the face: the model's diffuse terms over the cosine, on the viewer's side and through the surface.
+// Where the model is Lambert's the ratio is 1.
 const float kMeanNodes[4] = {0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
 const float kMeanWeights[4] = {0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
-float meanDiffuse(SurfacePoint s, vec3 wo, AreaFace f) {
-  float model = 0.0;
-  float cosines = 0.0;
-  for (int i = 0; i < 16; ++i) {
-    float a = kMeanNodes[i / 4], b = kMeanNodes[i % 4];
-    float weight = kMeanWeights[i / 4] * kMeanWeights[i % 4];
-    vec3 to = f.corner + a * f.edgeU + b * (f.triangle ? 1.0 - a : 1.0) * f.edgeV;
-    if (f.triangle) weight *= 1.0 - a;
-    if (f.circle) {  // four angles, of the four rings turned against each other
-      float psi = 0.5 * kPi * (float(i % 4) + 0.25 * float(i / 4));
-      float ring = f.radius * a;
-      to = f.corner + ring * (cos(psi) * f.edgeU + sin(psi) * f.edgeV);
-      weight = kMeanWeights[i / 4] * a;
-    }
-    float d = length(to);
-    vec3 wi = to / d;
-    float seen = weight * dot(wi, f.axis) / (d * d);
-    model += seen * evaluateModel(s, wo, wi).diffuse;
-    cosines += seen * greater(dot(s.n, wi), 0.0);
+struct FacePlace {
+  vec3 wi;
+  float seen;  // in proportion to the solid angle
+};
+FacePlace facePlace(AreaFace f, int i) {
+  float a = kMeanNodes[i / 4], b = kMeanNodes[i % 4];
+  float weight = kMeanWeights[i / 4] * kMeanWeights[i % 4];
+  vec3 to = f.corner + a * f.edgeU + b * (f.triangle ? 1.0 - a : 1.0) * f.edgeV;
+  if (f.triangle) weight *= 1.0 - a;
+  if (f.circle) {  // four angles, of the four rings turned against each other
+    float psi = 0.5 * kPi * (float(i % 4) + 0.25 * float(i / 4));
+    float ring = f.radius * a;
+    to = f.corner + ring * (cos(psi) * f.edgeU + sin(psi) * f.edgeV);
+    weight = kMeanWeights[i / 4] * a;
   }
-  return cosines > 0.0 ? model / cosines : 0.0;
+  float d = length(to);
+  vec3 wi = to / d;
+  return FacePlace(wi, weight * dot(wi, f.axis) / (d * d));
 }
 
-const bool kHasGlossyModels = (specModels & ~(1u << kModel_lambert | 1u << kModel_unlit)) != 0u;
+struct MeanDiffuse {
+  vec3 here;
+  vec3 through;
+};
+MeanDiffuse meanDiffuse(SurfacePoint s, vec3 wo, AreaFace f) {
+  MeanDiffuse sum = MeanDiffuse(vec3(0.0), vec3(0.0));
+  float above = 0.0, below = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    FacePlace at = facePlace(f, i);
+    Lobe lobe = evaluateModel(s, wo, at.wi);
+    float cosine = dot(s.n, at.wi);
+    sum.here += at.seen * lobe.diffuse;
+    sum.through += at.seen * lobe.transmitted;
+    above += at.seen * greater(cosine, 0.0);
+    below += at.seen * greater(-cosine, 0.0);
+  }
+  return MeanDiffuse(above > 0.0 ? sum.here / above : vec3(0.0), below > 0.0 ? sum.through / below : vec3(0.0));
+}
+
+// The glossy parts one after the other: a loop, so that the code of the models stands here once. Seen at grazing angles
+// a lobe is no longer round about the mirrored view; where the face is far from it the outline's terms then cancel to
+// less than nothing.
+Lobe glossyLobes(SurfacePoint s, vec3 wo, AreaFace f) {
+  Lobe sum = noLobe();
+  for (uint k = 0u; k < kLobeParts; ++k) {
+    SurfacePoint part = s;
+    part.lobes = 1u << k;
+    if (!hasLobe(s, part.lobes)) continue;
+    if (CL_HAS(clearcoat) && part.lobes == kLobeCoat) part.n = s.coatNormal;
+    Lobe found = glossyLobe(part, wo, lobeAxis(part, wo, lobeWidth(s, part.lobes)), f);
+    sum.specular += greater(found.specular, 0.0);
+    sum.fresnel += greater(found.fresnel, vec3(0.0));
+  }
+  return sum;
+}
+
+const uint kMatteModels = 1u << kModel_lambert | 1u << kModel_orenNayar | 1u << kModel_unlit;
+const bool kHasGlossyModels = (specModels & ~kMatteModels) != 0u;
 
 // The integral of the model's lobe over what is above the horizon; times the face's radiance.
 Lobe areaLobe(SurfacePoint s, vec3 wo, AreaFace f) {
-  bool isLambert = s.model == kModel_lambert;
-  bool plainDiffuse = isLambert || s.model == kModel_phong || s.model == kModel_blinnPhong;
-  LobeAxis axis = lobeAxis(s, wo);
+  bool matte = (1u << s.model & kMatteModels) != 0u;
+  bool plainDiffuse = s.model != kModel_cookTorrance && s.model != kModel_orenNayar;
   Lobe sum = noLobe();
-  if (kHasGlossyModels && f.shines && !isLambert) sum = glossyLobe(s, wo, axis, f);
-  float irradiance = faceIrradiance(f, s.n);
-  float mean = 1.0;
+  if (kHasGlossyModels && f.shines && !matte) sum = glossyLobes(s, wo, f);
+  MeanDiffuse mean = MeanDiffuse(vec3(1.0), vec3(0.0));
   if (!plainDiffuse) mean = meanDiffuse(s, wo, f);
-  sum.diffuse = irradiance * mean;
+  sum.diffuse = faceIrradiance(f, s.n) * mean.here;
+  if (CL_HAS(diffuseTransmission) && s.diffuseTransmission > 0.0) sum.transmitted = faceIrradiance(f, -s.n) * mean.through;
   return sum;
 }
 #endif

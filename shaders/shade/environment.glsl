@@ -7,8 +7,8 @@
 
 layout(set = 0, binding = kBindEnvironment) uniform samplerBuffer environmentTexels;
 
-// In mirrors rays bring what glossy lobes would: whoever sends them says so before illuminate().
-bool environmentMirrored_ = false;
+// In mirrors rays bring what glossy lobes would, kLobe*: whoever sends them says so before illuminate().
+uint mirrored_ = 0u;
 
 bool hasEnvironment() { return CL_HAS(environment) && frame.environmentGain > 0.0; }
 
@@ -90,31 +90,64 @@ vec3 environmentTable(float NoV, float perceptualRoughness) {
 }
 
 // Classic lobes are looked up as the GGX lobe that is as wide, times their integral for a view along the normal:
-// 2 pi / (n + 1) of (R.V)^n, and of (N.H)^n 8 pi (1 - 2^-(n+2)/2) / (n + 2).
+// 2 pi / (n + 1) of (R.V)^n, pi of (n+2)/2 (R.V)^n N.L, and of (N.H)^n 8 pi (1 - 2^-(n+2)/2) / (n + 2). Cook and
+// Torrance's of 1982 is 4 pi times a lobe of slope alpha.
 float classicRoughness(SurfacePoint s) {
-  float exponent = s.model == kModel_phong ? 4.0 * s.shininess : s.shininess;
-  return sqrt(sqrt(2.0 / (exponent + 2.0)));
+  bool aboutR = s.model == kModel_phong || s.model == kModel_modifiedPhong;
+  float exponent = aboutR ? 4.0 * s.shininess : s.shininess;
+  return s.model == kModel_cookTorrance1982 ? sqrt(s.roughnessAngle) : sqrt(sqrt(2.0 / (exponent + 2.0)));
 }
 float classicIntegral(SurfacePoint s) {
   float n = s.shininess;
   float blinn = 8.0 * kPi * (1.0 - exp2(-0.5 * (n + 2.0))) / (n + 2.0);
-  return s.model == kModel_lambert ? 0.0 : (s.model == kModel_phong ? 2.0 * kPi / (n + 1.0) : blinn);
+  float integral = s.model == kModel_phong ? 2.0 * kPi / (n + 1.0) : blinn;
+  if (s.model == kModel_modifiedPhong) integral = kPi;
+  return s.model == kModel_lambert || s.model == kModel_orenNayar ? 0.0 : integral;
 }
+
+// Oren and Nayar's reflectance of a constant environment: A + B 2/pi times the integral of sin(alpha) tan(beta)
+// cos(theta) sin(theta), by which side of the viewer's angle theta is on.
+float orenNayarAlbedo(SurfacePoint s, float NoV) {
+  float sigma2 = s.roughnessAngle * s.roughnessAngle;
+  float c = clamp(NoV, 0.0, 1.0), sine = sqrt(1.0 - c * c), angle = atan(sine, c);
+  float nearer = 0.5 * sine * (angle - sine * c);
+  // tan (1 - sin^3) / 3, which vanishes at grazing angles: 1 - sin = cos^2 / (1 + sin).
+  float farther = sine * c * (1.0 + sine + sine * sine) / (3.0 * (1.0 + sine));
+  return 1.0 - 0.5 * sigma2 / (sigma2 + 0.33) + 0.45 * sigma2 / (sigma2 + 0.09) * (2.0 / kPi) * (nearer + farther);
+}
+
+#include "shade/environment_layers.glsl"
 
 // Karis 2013, "Real Shading in Unreal Engine 4": the lobe's mean radiance times its integral. The diffuse term of
 // metallic-roughness is what the Fresnel term leaves, averaged over the hemisphere.
 LightSums environmentSums(SurfacePoint s, vec3 wo) {
+  if (s.model == kModel_unlit) return LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   bool physical = s.model == kModel_cookTorrance;
   float NoV = dot(s.n, wo);
   vec3 r = safeNormalize(2.0 * NoV * s.n - wo, s.n);
-  float roughness = physical ? sqrt(s.alpha) : classicRoughness(s);
+  float alpha = s.alpha;
+  if (CL_HAS(anisotropy) && s.alphaAlong > 0.0) alpha = sqrt(s.alpha * s.alphaAlong);
+  float roughness = physical ? sqrt(alpha) : classicRoughness(s);
   vec3 table = environmentTable(abs(NoV), roughness);
-  vec3 glossy = environmentMirrored_ ? vec3(0.0) : environmentGlossy(r, roughness);
-  float refused = s.dielectricF0 + (1.0 - s.dielectricF0) * table.z;
+  vec3 glossy = (mirrored_ & kLobeBase) != 0u ? vec3(0.0) : environmentGlossy(r, roughness);
+  float refused = s.dielectricF0 + (s.dielectricF90 - s.dielectricF0) * table.z;
   vec3 diffuse = environmentIrradiance(s.n) * (physical ? (1.0 - refused) / kPi : 1.0);
-  bool unlit = s.model == kModel_unlit;
-  float specular = physical ? table.x : classicIntegral(s);
-  return LightSums(vec3(0.0), unlit ? vec3(0.0) : diffuse, unlit ? vec3(0.0) : glossy * specular,
-                   physical ? glossy * table.y : vec3(0.0));
+  if (s.model == kModel_orenNayar) diffuse *= orenNayarAlbedo(s, NoV);
+  float atNormal = physical ? table.x : classicIntegral(s);
+  float atGrazing = physical ? table.y * s.F90 : 0.0;
+  if (s.model == kModel_cookTorrance1982) {
+    atNormal = 4.0 * kPi * table.x;
+    atGrazing = 4.0 * kPi * table.y;
+  } else if (CL_HAS_TOO(angularSpecular) && !physical && s.angularSpecular) {
+    atGrazing = atNormal * grazingWeight(NoV, meanOf(s.specularColor), true);
+    atNormal -= atGrazing;
+  }
+  LightSums sums = LightSums(vec3(0.0), diffuse, glossy * atNormal, glossy * atGrazing);
+  if (s.model == kModel_cookTorrance1982 && s.indexed) {
+    sums.specular = vec3(0.0);
+    sums.fresnel = glossy * s.specularColor * (reflectanceOfSurface(s, 1.0) * atNormal + atGrazing);
+  }
+  if (physical) addEnvironmentLayers(s, wo, EnvironmentLobe(abs(NoV), glossy, table), refused, sums);
+  return sums;
 }
 #endif

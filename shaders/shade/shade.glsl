@@ -6,6 +6,7 @@
 #include "light/light.glsl"
 #include "illum/illumination.glsl"
 #include "shade/area_lobe.glsl"
+#include "shade/seen.glsl"
 
 // As CL_MATERIAL in surface.glsl.
 #ifndef CL_LIGHT
@@ -24,7 +25,7 @@ struct LightSums {
   vec3 ambient;   // the lights' own ambient intensities, attenuated
   vec3 diffuse;
   vec3 specular;
-  vec3 fresnel;
+  vec3 fresnel;  // and whatever else no color of the surface multiplies
 };
 
 struct ShadedParts {
@@ -61,6 +62,7 @@ LightSums illuminate(SurfacePoint s, vec3 wo, uint firstLight, uint lightCount) 
     sums.diffuse += light.diffuse * (visible * lobe.diffuse);
     sums.specular += light.specular * (visible * lobe.specular);
     sums.fresnel += light.specular * (visible * lobe.fresnel);
+    if (CL_HAS(diffuseTransmission)) sums.fresnel += light.diffuse * (visible * lobe.transmitted);
   }
 #ifndef CL_LIGHTS_ONLY
   if (hasEnvironment() && firstLight == 0u) addEnvironment(s, wo, CL_ENVIRONMENT_VISIBILITY(lightCount), sums);

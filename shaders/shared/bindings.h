@@ -28,7 +28,23 @@
   X(19, softShadows)             \
   X(20, dispersion)              \
   X(21, nestedMedia)             \
-  X(22, coloredShadows)
+  X(22, coloredShadows)          \
+  X(23, bumpMap)                 \
+  X(24, clearcoat)               \
+  X(25, sheen)                   \
+  X(26, anisotropy)              \
+  X(27, iridescence)             \
+  X(28, diffuseTransmission)     \
+  X(29, mipmaps)
+
+// The same, beyond the 32 bits of the first word: X(bit of the plan, name); shaders ask for them by CL_HAS_TOO.
+#define CL_MORE_EFFECTS(X)   \
+  X(32, specularLayer)       \
+  X(33, transmissionTexture) \
+  X(34, diffuseRoughness)    \
+  X(35, angularSpecular)     \
+  X(36, exactFresnel)        \
+  X(37, energyCompensation)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord
@@ -75,15 +91,18 @@ CL_CONST uint kBindEnvironment = 55;    // texel buffer, RGBA32F: see shaders/sh
 CL_CONST uint kBindMedia = 53;          // uvec4 per ray node: the bodies that the ray is in (trace/media.glsl)
 CL_CONST uint kMostMedia = 8u;          // at once
 CL_CONST uint kBindSmokeGrid = 54;      // texel buffer, RGBA32F: densities, four to a texel
+CL_CONST uint kBindAlbedoTables = 60;   // texel buffer, RGBA32F: shaders/illum/albedo.glsl
+CL_CONST int kAlbedoTableSize = 32;
 // Set in a pixel of the film's codes whose color is finite.
 CL_CONST uint kFiniteCode = 0xff000000u;
 
 // Specialisation constants; their defaults in the shaders are "everything".
-CL_CONST uint kSpecModels = 0;   // bit i: illumination model i may occur
-CL_CONST uint kSpecLights = 1;   // bit i: light type i may occur
-CL_CONST uint kSpecShapes = 2;   // bit i: shape kind i may occur
-CL_CONST uint kSpecEffects = 3;  // bits of CL_EFFECTS
-CL_CONST uint kSpecVariant = 4;  // of one shader; documented there
+CL_CONST uint kSpecModels = 0;        // bit i: illumination model i may occur
+CL_CONST uint kSpecLights = 1;        // bit i: light type i may occur
+CL_CONST uint kSpecShapes = 2;        // bit i: shape kind i may occur
+CL_CONST uint kSpecEffects = 3;       // bits of CL_EFFECTS
+CL_CONST uint kSpecVariant = 4;       // of one shader; documented there
+CL_CONST uint kSpecMoreEffects = 50;  // bits of CL_MORE_EFFECTS, less 32
 // Of raster methods (bit 0) and of accumulate.
 CL_CONST uint kVariantClampVertexColors = 1u;
 CL_CONST uint kVariantFilmParts = 1u;    // FilmParts too
@@ -141,13 +160,14 @@ CL_SIZE(RayRecord, 48)
 
 // What comes back along a ray. Three texels; kept only when the plan's surfaces send rays on.
 struct RayNode {
-  vec3 value;             // radiance; once gathered with the children's and times the weight
-  float alpha;            // coverage of what the ray meets
-  vec3 weight;            // share of the value in the parent's
-  float travelled;        // scene units through fog before the ray's origin: of the rays that it goes straight on from
-  uint reflected;         // node of the reflected child, or kNoRayNode
-  uint transmitted;       // node of the refracted or straight-through child, or kNoRayNode
-  uint seenDirectly;      // 1: only straight-through surfaces lie between the camera and the ray. With fog only
+  vec3 value;         // radiance; once gathered with the children's and times the weight
+  float alpha;        // coverage of what the ray meets
+  vec3 weight;        // share of the value in the parent's
+  float travelled;    // scene units through fog before the ray's origin: of the rays that it goes straight on from
+  uint reflected;     // node of the reflected child, or kNoRayNode
+  uint transmitted;   // node of the refracted or straight-through child, or kNoRayNode
+  uint seenDirectly;  // bit 31: only straight-through surfaces lie between the camera and the ray, with fog only; the
+                      // others: bits of the length of the light's way from the camera to the ray's origin, with mipmaps
   uint transmittedCount;  // with dispersion: 1, or 3 nodes from `transmitted` on, for red, green and blue
 };
 CL_SIZE(RayNode, 48)
@@ -223,7 +243,7 @@ CL_SHARED_END
 #ifdef __cplusplus
 namespace crosslight {
 #define CL_EFFECT_ROW(bit, name) name = bit,
-enum class Effect : std::uint32_t { CL_EFFECTS(CL_EFFECT_ROW) };
+enum class Effect : std::uint32_t { CL_EFFECTS(CL_EFFECT_ROW) CL_MORE_EFFECTS(CL_EFFECT_ROW) };
 #undef CL_EFFECT_ROW
 }  // namespace crosslight
 #endif

@@ -5,12 +5,15 @@
 #include "types.h"
 
 // X(value, name, GLSL stem, what it is)
-#define CL_ILLUMINATION_MODELS(X)                                               \
-  X(0, unlit, Unlit, "the base color alone, no lighting (KHR_materials_unlit)") \
-  X(1, lambert, Lambert, "kd (N.L)")                                            \
-  X(2, phong, Phong, "kd (N.L) + ks (R.V)^n, Phong 1975")                       \
-  X(3, blinnPhong, BlinnPhong, "kd (N.L) + ks (N.H)^n, Blinn 1977")             \
-  X(4, cookTorrance, CookTorrance, "glTF metallic-roughness: GGX, height-correlated Smith, Schlick")
+#define CL_ILLUMINATION_MODELS(X)                                                                    \
+  X(0, unlit, Unlit, "the base color alone, no lighting (KHR_materials_unlit)")                      \
+  X(1, lambert, Lambert, "kd (N.L)")                                                                 \
+  X(2, phong, Phong, "kd (N.L) + ks (R.V)^n, Phong 1975")                                            \
+  X(3, blinnPhong, BlinnPhong, "kd (N.L) + ks (N.H)^n, Blinn 1977")                                  \
+  X(4, cookTorrance, CookTorrance, "glTF metallic-roughness: GGX, height-correlated Smith, Schlick") \
+  X(5, modifiedPhong, ModifiedPhong, "(kd + ks (n+2)/2 (R.V)^n) (N.L), Lafortune and Willems 1994")  \
+  X(6, orenNayar, OrenNayar, "rough diffuse reflection, qualitative model of Oren and Nayar 1994")   \
+  X(7, cookTorrance1982, CookTorrance1982, "Beckmann, V-shaped grooves, exact Fresnel: Cook and Torrance 1982")
 
 // X(value, name, GLSL stem, what it is)
 #define CL_LIGHT_TYPES(X)                                                         \

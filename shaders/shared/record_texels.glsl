@@ -48,6 +48,48 @@ TextureSlot oddSlot(int at) {
   return TextureSlot(a.z, a.w, b.x, b.y, asVec4(b.z, b.w, c.x, c.y), uintBitsToFloat(c.zw));
 }
 
+// What glTF's extensions add; in a plan without them none of it is read.
+const uint kLayerEffects = kEffect_bumpMap | kEffect_clearcoat | kEffect_sheen | kEffect_anisotropy | kEffect_iridescence |
+                           kEffect_diffuseTransmission;
+const uint kMoreLayerEffects = kEffect_specularLayer | kEffect_transmissionTexture | kEffect_diffuseRoughness;
+const bool kReadsLayers = ((specEffects & kLayerEffects) | (specMoreEffects & kMoreLayerEffects) |
+                           (specModels & (1u << kModel_orenNayar | 1u << kModel_cookTorrance1982))) != 0u;
+
+void readLayers(int at, inout MaterialRecord m) {
+  uvec4 a = texelFetch(materialTexels, at), b = texelFetch(materialTexels, at + 1), c = texelFetch(materialTexels, at + 2);
+  uvec4 d = texelFetch(materialTexels, at + 3), e = texelFetch(materialTexels, at + 4), f = texelFetch(materialTexels, at + 5);
+  uvec4 g = texelFetch(materialTexels, at + 6), h = texelFetch(materialTexels, at + 7);
+  m.roughnessAngle = uintBitsToFloat(a.x);
+  m.diffuseRoughness = uintBitsToFloat(a.y);
+  m.clearcoat = uintBitsToFloat(a.z);
+  m.clearcoatRoughness = uintBitsToFloat(a.w);
+  m.refractiveIndex = asVec3(b.x, b.y, b.z);
+  m.clearcoatNormalScale = uintBitsToFloat(b.w);
+  m.extinction = asVec3(c.x, c.y, c.z);
+  m.specularFactor = uintBitsToFloat(c.w);
+  m.specularTint = asVec3(d.x, d.y, d.z);
+  m.sheenRoughness = uintBitsToFloat(d.w);
+  m.sheenColor = asVec3(e.x, e.y, e.z);
+  m.anisotropy = uintBitsToFloat(e.w);
+  m.diffuseTransmissionColor = asVec3(f.x, f.y, f.z);
+  m.diffuseTransmission = uintBitsToFloat(f.w);
+  m.anisotropyDirection = uintBitsToFloat(g.xy);
+  m.iridescence = uintBitsToFloat(g.z);
+  m.filmIndex = uintBitsToFloat(g.w);
+  m.filmThinnest = uintBitsToFloat(h.x);
+  m.filmThickest = uintBitsToFloat(h.y);
+  m.bumpFactor = uintBitsToFloat(h.z);
+  m.spare = 0u;
+  m.bumpTexture = evenSlot(at + 43);
+}
+
+// One texture of a layer: their list begins with a texel.
+TextureSlot layerSlotOf(uint material, uint layer) {
+  int at = int(kMaterialTexels * material + 30u + 5u * (layer >> 1u));
+  if ((layer & 1u) == 0u) return evenSlot(at);
+  return oddSlot(at + 2);
+}
+
 MaterialRecord materialOf(uint material) {
   int at = int(kMaterialTexels * material);
   uvec4 a = texelFetch(materialTexels, at), b = texelFetch(materialTexels, at + 1), c = texelFetch(materialTexels, at + 2);
@@ -81,6 +123,7 @@ MaterialRecord materialOf(uint material) {
   m.priority = 0.0;  // mediumOf() reads what bodies need
   m.dispersion = 0.0;
   m.unused1 = m.unused2 = 0u;
+  if (kReadsLayers) readLayers(at + 22, m);
   return m;
 }
 #endif

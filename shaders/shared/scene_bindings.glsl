@@ -11,9 +11,13 @@ layout(constant_id = kSpecLights) const uint specLights = 0xffffffffu;
 layout(constant_id = kSpecShapes) const uint specShapes = 0xffffffffu;
 layout(constant_id = kSpecEffects) const uint specEffects = 0xffffffffu;
 layout(constant_id = kSpecVariant) const uint specVariant = 0u;
+layout(constant_id = kSpecMoreEffects) const uint specMoreEffects = 0xffffffffu;
 
 #define CL_EFFECT_ROW(bit, name) const uint kEffect_##name = 1u << bit;
 CL_EFFECTS(CL_EFFECT_ROW)
+#undef CL_EFFECT_ROW
+#define CL_EFFECT_ROW(bit, name) const uint kEffect_##name = 1u << (bit - 32);
+CL_MORE_EFFECTS(CL_EFFECT_ROW)
 #undef CL_EFFECT_ROW
 #define CL_MODEL_ROW(value, name, Stem, text) const uint kModel_##name = uint(value);
 CL_ILLUMINATION_MODELS(CL_MODEL_ROW)
@@ -23,6 +27,7 @@ CL_LIGHT_TYPES(CL_LIGHT_ROW)
 #undef CL_LIGHT_ROW
 const bool kHasAreaLights = (specLights & kAreaLightTypes) != 0u;
 #define CL_HAS(name) ((specEffects & kEffect_##name) != 0u)
+#define CL_HAS_TOO(name) ((specMoreEffects & kEffect_##name) != 0u)
 
 layout(set = 0, binding = kBindFrame, scalar) uniform FrameBlock { FrameRecord frame; };
 layout(set = 0, binding = kBindMaterials, scalar) readonly buffer MaterialBlock { MaterialRecord materials[]; };
@@ -33,6 +38,7 @@ layout(set = 0, binding = kBindAttributes) uniform samplerBuffer attributeTexels
 layout(set = 0, binding = kBindIndices) uniform usamplerBuffer indexTexels;
 layout(set = 0, binding = kBindShapes, scalar) readonly buffer ShapeBlock { ShapeRecord shapes[]; };
 layout(set = 0, binding = kBindTexels) uniform samplerBuffer texels;
+layout(set = 0, binding = kBindAlbedoTables) uniform samplerBuffer albedoTables;
 layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvhNodes;
 layout(set = 0, binding = kBindBvhPrimitives) uniform usamplerBuffer bvhPrimitives;
 

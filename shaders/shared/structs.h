@@ -54,6 +54,23 @@ CL_CONST uint kTextureNearest = 2u;     // magnification filter NEAREST (else LI
 CL_CONST uint kTextureWrapShiftU = 2u;  // two bits: 0 repeat, 1 mirrored repeat, 2 clamp to edge
 CL_CONST uint kTextureWrapShiftV = 4u;
 
+// Textures of material layers by their place in MaterialRecord::layerTextures, each with the channels that count.
+CL_CONST uint kLayerSpecular = 0u;            // A
+CL_CONST uint kLayerSpecularTint = 1u;        // RGB
+CL_CONST uint kLayerClearcoat = 2u;           // R
+CL_CONST uint kLayerClearcoatRoughness = 3u;  // G
+CL_CONST uint kLayerClearcoatNormal = 4u;     // RGB
+CL_CONST uint kLayerSheenColor = 5u;          // RGB
+CL_CONST uint kLayerSheenRoughness = 6u;      // A
+CL_CONST uint kLayerAnisotropy = 7u;          // RG direction, B strength
+CL_CONST uint kLayerIridescence = 8u;         // R
+CL_CONST uint kLayerFilmThickness = 9u;       // G
+CL_CONST uint kLayerTransmitted = 10u;        // A: diffuse transmission
+CL_CONST uint kLayerTransmittedColor = 11u;   // RGB
+CL_CONST uint kLayerTransmission = 12u;       // R
+CL_CONST uint kLayerDiffuseRoughness = 13u;   // R
+CL_CONST uint kLayerTextures = 14u;
+
 // All models read this record; `model` says which fields count. Ranges are those of glTF unless said otherwise.
 struct MaterialRecord {
   uint model;      // CL_ILLUMINATION_MODELS
@@ -83,9 +100,35 @@ struct MaterialRecord {
   float priority;    // nestedMedia: the highest counts where bodies overlap
   float dispersion;  // KHR_materials_dispersion: 20 / Abbe number
   uint unused1, unused2;
+
+  // Read only where the effect that needs them is on.
+  float roughnessAngle;      // orenNayar: standard deviation of the facets' slope angle, radians; cookTorrance1982: m
+  float diffuseRoughness;    // KHR_materials_diffuse_roughness, 0..1
+  float clearcoat;           // KHR_materials_clearcoat, as the following three
+  float clearcoatRoughness;  // perceptual
+  vec3 refractiveIndex;      // cookTorrance1982: n of n + ik, with kMaterialIndexed
+  float clearcoatNormalScale;
+  vec3 extinction;       // k of n + ik
+  float specularFactor;  // KHR_materials_specular
+  vec3 specularTint;     // its color factor
+  float sheenRoughness;  // KHR_materials_sheen, perceptual
+  vec3 sheenColor;
+  float anisotropy;  // KHR_materials_anisotropy: strength
+  vec3 diffuseTransmissionColor;
+  float diffuseTransmission;  // KHR_materials_diffuse_transmission
+  vec2 anisotropyDirection;   // cosine and sine of the rotation
+  float iridescence;          // KHR_materials_iridescence, as the following three
+  float filmIndex;
+  float filmThinnest;  // nanometers
+  float filmThickest;
+  float bumpFactor;  // EXT_materials_bump: scene units of height per texel value
+  uint spare;
+  TextureSlot layerTextures[kLayerTextures];
+  TextureSlot bumpTexture;   // R
+  TextureSlot spareTexture;  // whole texels: slots come in pairs
 };
-CL_SIZE(MaterialRecord, 352)
-CL_CONST uint kMaterialTexels = 22u;
+CL_SIZE(MaterialRecord, 1120)
+CL_CONST uint kMaterialTexels = 70u;
 CL_CONST int kBodyTexel = 21;  // the one that holds `priority` and `dispersion`
 CL_CONST uint kMaterialDoubleSided = 1u;
 CL_CONST uint kMaterialAlphaMask = 2u;
@@ -95,6 +138,10 @@ CL_CONST uint kMaterialRefracts =
     16u;                              // sends a refracted ray in whitted (KHR_materials_transmission or kt with an ior)
 CL_CONST uint kMaterialThin = 32u;    // no volume: the transmitted ray goes straight on
 CL_CONST uint kMaterialVolume = 64u;  // KHR_materials_volume is present
+CL_CONST uint kMaterialAngularSpecular = 65536u;  // ks is W(0); W(theta) rises to 1 at grazing angles
+CL_CONST uint kMaterialIndexed = 131072u;         // refractiveIndex and extinction count
+CL_CONST uint kMaterialSpecularLayer = 524288u;   // KHR_materials_specular is present
+CL_CONST uint kMaterialCoatMirrors = 262144u;     // the clear coat, not the base, sends the mirrored ray
 
 // One light. Classic lights keep separate ambient, diffuse and specular intensities; glTF lights put the same
 // candela (point, spot), lux (directional) or radiance (area) into diffuse and specular and nothing into ambient.
@@ -176,13 +223,15 @@ struct FrameRecord {
   uint smokeGridX;        // densities along each axis; 0: the density is 1 all over
   uint smokeGridY;
   uint smokeGridZ;
-  uint smokeSteps;    // along the part of a ray that lies in smoke
-  uint smokeSeed;     // of the places within them that are looked at; 0: their middles
-  uvec4 cameraMedia;  // the bodies that the camera is in, as kBindMedia has them
-  uint cameraMedium;  // material of the one that counts; kNoId: none
-  uint optics;        // kOptics*
+  uint smokeSteps;          // along the part of a ray that lies in smoke
+  uint smokeSeed;           // of the places within them that are looked at; 0: their middles
+  uvec4 cameraMedia;        // the bodies that the camera is in, as kBindMedia has them
+  uint cameraMedium;        // material of the one that counts; kNoId: none
+  uint optics;              // kOptics*
+  uint fresnel;             // kFresnel*
+  uint energyCompensation;  // 1: what single scattering on microfacets loses is added
 };
-CL_SIZE(FrameRecord, 360)
+CL_SIZE(FrameRecord, 368)
 // What changes how light goes through bodies: by the scene or by request, so a pipeline with everything must ask.
 CL_CONST uint kOpticsNestedMedia = 1u;
 CL_CONST uint kOpticsDispersion = 2u;
@@ -195,6 +244,9 @@ CL_CONST uint kFogNone = 0u;
 CL_CONST uint kFogLinear = 1u;
 CL_CONST uint kFogExp = 2u;
 CL_CONST uint kFogExp2 = 3u;
+CL_CONST uint kFresnelOfModel = 0u;  // glTF: Schlick; cookTorrance1982 and W(theta): exact
+CL_CONST uint kFresnelSchlick = 1u;
+CL_CONST uint kFresnelExact = 2u;
 
 // What is known about the surface seen through a pixel's center. Written by raster and by rays alike.
 struct AovRecord {

@@ -11,6 +11,7 @@ struct NewRay {
   float travelled;  // RayNode has it
   bool seenDirectly;
   uvec4 media;  // with nestedMedia
+  float path;  // RayNode has it
 };
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
@@ -41,10 +42,9 @@ uint storeRay(uint slot, RayRecord parent, HitSurface h, NewRay ray) {
   rays[slot] = RayRecord(leaveSurface(h, ray.direction), 0.0, ray.direction, kLargest, h.slot, ray.medium, ray.kind,
                          parent.depth + 1u);
   nodes[slot].weight = ray.weight;
-  if (CL_HAS(fog)) {
-    nodes[slot].travelled = ray.travelled;
-    nodes[slot].seenDirectly = ray.seenDirectly ? 1u : 0u;
-  }
+  if (CL_HAS(fog)) nodes[slot].travelled = ray.travelled;
+  if (CL_HAS(fog) || CL_HAS(mipmaps))
+    nodes[slot].seenDirectly = floatBitsToUint(ray.path) | (ray.seenDirectly ? 0x80000000u : 0u);
   if (CL_HAS(nestedMedia)) mediaOfNodes[slot] = ray.media;
   return slot;
 }
@@ -77,8 +77,9 @@ Children addDispersedRays(RayRecord parent, HitSurface h, NewRay mirrored, NewRa
   return children;
 }
 
-// `passed` is set to the share of the ray that goes straight on: its fog is counted farther on.
-Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog fog, SurfaceMedia media,
+// `path`: length of the light's way from the camera to the hit. `passed` is set to the share of the ray that goes straight
+// on: its fog is counted farther on.
+Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog fog, float path, SurfaceMedia media,
                        out vec3 passed) {
   passed = vec3(0.0);
   if (ray.depth >= pushed.maxDepth) return Children(kNoRayNode, kNoRayNode, 1u);
@@ -111,8 +112,16 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
   bool blends = (m.flags & kMaterialAlphaBlend) != 0u;
   float behind = CL_HAS(transparency) && (blends || !inOpacity) ? 1.0 - s.opacity - (inOpacity ? m.transmission : 0.0) : 0.0;
   if (bends && !classic) {
-    mirrorWeight = CL_HAS(reflection) ? vec3(F) : vec3(0.0);
+    vec3 reflected = vec3(F);
+    if (CL_HAS_TOO(specularLayer) && (m.flags & kMaterialSpecularLayer) != 0u) {
+      float f0 = (ior - 1.0) * (ior - 1.0) / ((ior + 1.0) * (ior + 1.0));
+      float weight = clamp((F - f0) / (1.0 - f0), 0.0, 1.0);
+      reflected = s.dielectricColor + (s.dielectricF90 - s.dielectricColor) * weight;
+      F = maxComponent(reflected);
+    }
+    mirrorWeight = CL_HAS(reflection) ? reflected : vec3(0.0);
     throughWeight *= 1.0 - F;
+    if (CL_HAS(clearcoat) && CL_HAS(reflection)) mirrorWeight = mirroredWithCoat(m, s, mirrorWeight);
   }
   Dispersed dispersed;
   dispersed.spreads = false;
@@ -157,8 +166,9 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
   bool bothSides = bent || (CL_HAS(nestedMedia) && ray.medium != kNoRayNode);  // a body is met from inside
   NewRay through = NewRay(onward, throughWeight, bothSides ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
                           bent ? 0.0 : fog.distance, !bent && fog.seenDirectly,
-                          bent && media.bounds ? media.at.media : media.here);
-  NewRay mirrored = NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false, media.here);
+                          bent && media.bounds ? media.at.media : media.here, path);
+  NewRay mirrored = NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false, media.here,
+                           path);
   if (CL_HAS(dispersion) && (frame.optics & kOpticsDispersion) != 0u) {
     vec3 channels = channelsOf(ray, pushed.firstNode + shaded_);
     mirrored.weight *= channels;

@@ -18,7 +18,7 @@ SegmentFog fogAtHit(uint node, RayRecord ray, float t, bool insideBody) {
   float before = 0.0;
   if (kBranches && !first) {
     before = nodes[node].travelled;
-    direct = nodes[node].seenDirectly != 0u;
+    direct = (nodes[node].seenDirectly & 0x80000000u) != 0u;
   }
   float along = direct && frame.fogByDepth != 0u ? dot(ray.direction, frame.cameraForward) : safeLength(ray.direction);
   float distance = before + t * along;

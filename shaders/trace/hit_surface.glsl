@@ -4,6 +4,7 @@
 #define CROSSLIGHT_HIT_SURFACE_GLSL
 #include "shade/passed_light.glsl"
 #include "shade/triangle.glsl"
+#include "shade/place_textures.glsl"
 #include "accel/leave_point.glsl"
 
 struct HitSurface {
@@ -11,6 +12,7 @@ struct HitSurface {
   vec3 positionError;  // bound of the rounding error of at.renderPos, per axis
   uint drawId;
   uint primitiveId;
+  TriangleUv uv;  // where kPlacesTextures
   uint slot;  // of the triangle in the tree; kNoHit for shapes, whose rays may meet them again
 };
 
@@ -53,6 +55,12 @@ HitSurface triangleSurface(HitRecord hit) {
   s.drawId = p.drawId;
   s.primitiveId = draw.primitiveBase + p.id - draw.firstTriangle;
   s.slot = hit.primitive;
+  s.uv = kNoTriangleUv;
+  if (kPlacesTextures)
+    s.uv = triangleUv(p.v0, p.v1, p.v2, vec4(a0.uv0, a0.uv1), vec4(a1.uv0, a1.uv1), vec4(a2.uv0, a2.uv1),
+                      bumpReadsSecondSet(draw.materialId));
+  s.at.footprint = vec2(0.0);
+  s.at.alongU = s.at.alongV = vec3(0.0);
   return s;
 }
 
@@ -78,6 +86,9 @@ HitSurface shapeSurface(HitRecord hit, Ray ray) {
   s.drawId = shape.drawId;
   s.primitiveId = 0u;
   s.slot = kNoHit;
+  s.uv = kNoTriangleUv;
+  s.at.footprint = vec2(0.0);
+  s.at.alongU = s.at.alongV = vec3(0.0);
   return s;
 }
 

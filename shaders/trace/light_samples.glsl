@@ -21,7 +21,8 @@ SampledPoint sampledPoint(uint ray) {
   p.hit = hit.primitive != kNoHit;
   if (!p.hit) hit.primitive = CL_HAS(triangles) ? 0u : kHitShape;  // something that is there; nobody asks for it
   p.h = surfaceOfHit(hit, rayOf(record), !goesStraight(record.kind));
-  p.s = surfaceAt(p.h.at);
+  // Of the way from the camera only the last part is known here: textures are read at most too sharp, for a weight.
+  p.s = pointOfHit(p.h, record, wayOf(record, hit.t));
   p.wo = towardsViewer(record, p.s.position);
   bool camera = !kBranches || record.kind == kRayPrimary;
   uint pixel = (pushed.firstRow + at.at.y) * frame.resolution.x + at.at.x;

@@ -10,6 +10,7 @@
 #include "trace/hit_surface.glsl"
 #include "shade/shade.glsl"
 #include "trace/camera.glsl"
+#include "trace/hit_point.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindNodeTexels) uniform usamplerBuffer nodeTexels;
@@ -29,7 +30,7 @@ float shownVisibility() {
 vec4 nodeTexel(uint node, uint part) { return uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + part))); }
 
 void recordLights(uint node, RayRecord ray, SurfacePoint s, bool interior) {
-  vec3 wo = ray.kind == kRayPrimary ? viewDirection(s.position) : -safeNormalize(ray.direction, vec3(0.0));
+  vec3 wo = towardsViewer(ray, s.position);
   for (batchLight_ = 0u; batchLight_ < pushed.lightCount; ++batchLight_) {
     uint light = pushed.firstLight + batchLight_;
     ShadedParts parts = compose(s, illuminate(s, wo, light, 1u), vec3(0.0));
@@ -72,7 +73,8 @@ void main() {
   }
   if (hit.primitive != kNoHit) {
     HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
-    SurfacePoint s = surfaceAt(h.at);
+    float before = CL_HAS(mipmaps) && kBranches && ray.kind != kRayPrimary ? uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + 2u)).z & 0x7fffffffu) : 0.0;
+    SurfacePoint s = pointOfHit(h, ray, before + wayOf(ray, hit.t));
     r.t = hit.t;
     r.position = s.position;
     r.normal = s.n;

@@ -14,7 +14,7 @@
 #include "trace/camera.glsl"
 #include "shade/optics.glsl"
 #include "shade/mirror.glsl"
-#include "trace/viewer.glsl"
+#include "trace/hit_point.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindAovs, scalar) buffer AovBlock { AovRecord aovs[]; };
@@ -66,11 +66,18 @@ bool isInsideBody(RayRecord ray, HitSurface h) {
   return CL_HAS(refraction) && (ray.medium != kNoRayNode || leavesBody);
 }
 
+// Length of the light's way from the camera to the hit.
+float pathTo(uint node, RayRecord ray, float t) {
+  float before = kBranches && ray.kind != kRayPrimary ? uintBitsToFloat(nodes[node].seenDirectly & 0x7fffffffu) : 0.0;
+  return before + wayOf(ray, t);
+}
+
 Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   bool firstBatch = !kManyLights || pushed.firstLight == 0u;
   HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
-  SurfacePoint s = surfaceAt(h.at);
-  environmentMirrored_ = CL_HAS(reflection) && ray.depth < pushed.maxDepth && (materialOf(h.at.materialId).flags & kMaterialMirror) != 0u;
+  float path = CL_HAS(mipmaps) ? pathTo(pushed.firstNode + shaded_, ray, hit.t) : 0.0;
+  SurfacePoint s = pointOfHit(h, ray, path);
+  if (CL_HAS(reflection) && ray.depth < pushed.maxDepth) mirrored_ = mirroredLobes(materialOf(h.at.materialId));
   LightSums sums = illuminate(s, towardsViewer(ray, s.position), pushed.firstLight, pushed.lightCount);
   // Inside a refracting body no light arrives but along the rays that the tree follows.
   bool interior = isInterior(h);
@@ -92,7 +99,7 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   }
   vec3 passed = vec3(0.0);
   if (kBranches && firstBatch) {
-    shaded.children = spawnChildren(ray, h, s, fog, media, passed);
+    shaded.children = spawnChildren(ray, h, s, fog, path, media, passed);
   }
   if (CL_HAS(fog)) {
     if (!firstBatch) fog.fog.fogged = 0.0;

@@ -12,7 +12,7 @@
 #include "shade/environment_sample.glsl"
 #include "trace/camera.glsl"
 #include "trace/light_passed.glsl"
-#include "trace/viewer.glsl"
+#include "trace/hit_point.glsl"
 #include "trace/light_samples.glsl"
 
 layout(local_size_x = 64) in;

@@ -9,8 +9,9 @@ namespace crosslight::scenegen {
 
 std::vector<SceneRow> allScenes() {
   std::vector<SceneRow> all;
-  for (const auto rows : {analyticScenes(), showcaseScenes(), overviewScenes(), featureScenes(), lightScenes(),
-                          airScenes(), areaLightScenes(), surfaceScenes(), stressScenes()}) {
+  for (const auto rows :
+       {analyticScenes(), showcaseScenes(), overviewScenes(), featureScenes(), lightScenes(), airScenes(),
+        areaLightScenes(), modelScenes(), layerScenes(), surfaceScenes(), stressScenes()}) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   std::sort(all.begin(), all.end(),

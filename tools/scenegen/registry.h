@@ -23,6 +23,8 @@ std::span<const SceneRow> featureScenes();
 std::span<const SceneRow> lightScenes();
 std::span<const SceneRow> airScenes();
 std::span<const SceneRow> areaLightScenes();
+std::span<const SceneRow> modelScenes();
+std::span<const SceneRow> layerScenes();
 std::span<const SceneRow> surfaceScenes();
 std::span<const SceneRow> stressScenes();
 

@@ -40,7 +40,11 @@ const std::vector<Carrier>& carriers() {
         {"specularFactor", {0, 0.5, 1}},
         {"shininess", 3},
         {"transparency", 0.5},
-        {"reflectionFactor", {0, 0.5, 1}}}},
+        {"reflectionFactor", {0, 0.5, 1}},
+        {"roughness", 0.5},
+        {"specularCoefficient", "angular"},
+        {"refractiveIndex", {1, 2, 3}},
+        {"extinction", {0, 1, 2}}}},
       {"CROSSLIGHT_lights_classic",
        "/extensions/KHR_lights_punctual/lights/0/extensions/CROSSLIGHT_lights_classic",
        [=](const Json& e) {

@@ -219,11 +219,74 @@ TEST(GltfMaterial, TexturesThatAreOnlyPartlySupportedAreNamed) {
   textured(file);
   file.json["materials"] = {
       {{"normalTexture", {{"index", 0}, {"texCoord", 2}}},
-       {"extensions", {{"KHR_materials_transmission", {{"transmissionTexture", {{"index", 0}}}}}}}}};
+       {"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"thicknessTexture", {{"index", 0}}}}}}}}};
   EXPECT_FALSE(materialOf(file).normalTexture.present());
   const std::string place = file.folder().path().string() + "/scene.gltf: /materials/0/";
   EXPECT_TRUE(warned(place + "normalTexture: reads TEXCOORD_2"));
-  EXPECT_TRUE(warned(place + "extensions/KHR_materials_transmission/transmissionTexture: is not supported yet"));
+  EXPECT_TRUE(warned(place + "extensions/KHR_materials_volume/thicknessTexture: does not count"));
+}
+
+TEST(GltfMaterial, LayersAreReadWithTheirTexturesAndRanges) {
+  GltfFile file;
+  textured(file);
+  const Json info = {{"index", 0}};
+  file.json["materials"] = {
+      {{"extensions",
+        {{"KHR_materials_specular",
+          {{"specularFactor", 0.5}, {"specularColorFactor", {2, 1, 0}}, {"specularTexture", info}}},
+         {"KHR_materials_clearcoat",
+          {{"clearcoatFactor", 0.75}, {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.5}}}}},
+         {"KHR_materials_sheen", {{"sheenColorFactor", {0.25, 0.5, 1}}, {"sheenRoughnessTexture", info}}},
+         {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.25}, {"anisotropyRotation", 1}}},
+         {"KHR_materials_iridescence", {{"iridescenceFactor", 1}, {"iridescenceIor", 1.75}}},
+         {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.125}}},
+         {"KHR_materials_diffuse_roughness", {{"diffuseRoughnessFactor", 0.375}}},
+         {"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", info}}},
+         {"EXT_materials_bump", {{"bumpFactor", -2}, {"bumpTexture", info}}},
+         {"CROSSLIGHT_materials_displacement", {{"displacementTexture", info}, {"scale", 3}, {"bias", -1}}}}}}};
+  const Material m = materialOf(file);
+  EXPECT_EQ(m.layers.specularFactor, 0.5f);
+  EXPECT_EQ(m.layers.specularColor, glm::vec3(2, 1, 0));
+  EXPECT_TRUE(m.layers.specularTexture.present());
+  EXPECT_FALSE(m.layers.specularColorTexture.present());
+  EXPECT_EQ(m.layers.clearcoat, 0.75f);
+  EXPECT_EQ(m.layers.clearcoatNormalScale, 0.5f);
+  EXPECT_EQ(m.layers.sheenColor, glm::vec3(0.25f, 0.5f, 1));
+  EXPECT_TRUE(m.layers.sheenRoughnessTexture.present());
+  EXPECT_EQ(m.layers.anisotropy, 0.25f);
+  EXPECT_EQ(m.layers.anisotropyRotation, 1.0f);
+  EXPECT_EQ(m.layers.filmIndex, 1.75f);
+  EXPECT_EQ(m.layers.filmThickest, 400.0f);
+  EXPECT_EQ(m.layers.diffuseTransmission, 0.125f);
+  EXPECT_EQ(m.layers.diffuseRoughness, 0.375f);
+  EXPECT_TRUE(m.transmissionTexture.present());
+  EXPECT_TRUE(m.bumpTexture.present());
+  EXPECT_EQ(m.bumpFactor, -2.0f);
+  EXPECT_TRUE(m.displacementTexture.present());
+  EXPECT_EQ(m.displacementScale, 3.0f);
+  EXPECT_EQ(m.displacementBias, -1.0f);
+  file.json["materials"][0]["extensions"]["KHR_materials_iridescence"]["iridescenceIor"] = 0.5;
+  EXPECT_REFUSED(file, "/materials/0/extensions/KHR_materials_iridescence/iridescenceIor");
+}
+
+TEST(GltfMaterial, MinificationFiltersChooseLevels) {
+  GltfFile file;
+  textured(file);
+  file.json["textures"][0]["sampler"] = 0;
+  file.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  const auto with = [&](Json sampler) {
+    file.json["samplers"] = {std::move(sampler)};
+    return materialOf(file).emissiveTexture;
+  };
+  EXPECT_EQ(with({{"minFilter", 9728}}).mip, Mip::none);
+  EXPECT_EQ(with({{"minFilter", 9729}}).mip, Mip::none);
+  EXPECT_EQ(with({{"minFilter", 9984}}).mip, Mip::nearest);
+  EXPECT_EQ(with({{"minFilter", 9984}}).minFilter, Filter::nearest);
+  EXPECT_EQ(with({{"minFilter", 9985}}).mip, Mip::nearest);
+  EXPECT_EQ(with({{"minFilter", 9985}}).minFilter, Filter::linear);
+  EXPECT_EQ(with({{"minFilter", 9986}}).minFilter, Filter::nearest);
+  EXPECT_EQ(with({{"minFilter", 9987}}).mip, Mip::linear);
+  EXPECT_EQ(with(Json::object()).mip, Mip::none);
 }
 
 TEST(GltfMaterial, ANormalTextureWithoutTangentsMakesThem) {
