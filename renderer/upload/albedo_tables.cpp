@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Of the shaders (kSmallestAlpha): tables and lobes must be sharp alike.
 constexpr double kSmallestAlpha = 1e-3;
-// Midpoints; with them a table's entry is within 2e-3 of the converged integral for cosines from 1/2 on, 1.2e-2 towards
+// Midpoints; with them a table's entry is within 4e-3 of the converged integral for cosines from 1/2 on, 1.2e-2 towards
 // grazing angles (a test compares).
 constexpr int kPolarSteps = 48, kAzimuthSteps = 24;
 

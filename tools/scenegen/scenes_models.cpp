@@ -76,7 +76,7 @@ void materialTable(GltfBuilder& gltf) {
     }
   }
   addDirectionalLight(gltf, "key", {0.0, -1.0, -1.0}, {.color = dvec3(1.0)});
-  addCamera(gltf, {.eye = {0.0, 0.0, 12.0}, .target = dvec3(0.0), .yFovDegrees = 25.0});
+  addCamera(gltf, {.eye = {0.0, 0.0, 12.0}, .target = dvec3(0.0), .yFovDegrees = 30.0});
   setAtmosphere(gltf, 0.2, dvec3(0.2));
 }
 
