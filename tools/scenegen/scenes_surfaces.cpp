@@ -32,7 +32,7 @@ void mipmaps(GltfBuilder& gltf) {
       meshNode("floor", gltf.addMesh("floor", {{gltf.addGeometry(floor), gltf.addMaterial(std::move(material))}})));
   const int mirror = gltf.addMaterial(classicMaterial(
       "mirror", {.ka = dvec3(0.02), .kd = dvec3(0.02), .ks = dvec3(0.2), .shininess = 100.0, .kr = dvec3(0.9)}));
-  const Primitive wall = withoutUv(gridMesh({2.2, 1.2, -4.0}, {1.0, 0.0, 0.8}, {0.0, 1.1, 0.0}, 4));
+  const Primitive wall = withoutUv(gridMesh({0.9, 1.3, -4.0}, {1.9, 0.0, 0.6}, {0.0, 1.2, 0.0}, 4));
   gltf.addRoot(meshNode("mirror", gltf.addMesh("mirror", {{gltf.addGeometry(wall), mirror}})));
   addPointLight(gltf, "key", {-3.0, 8.0, 4.0}, {.color = dvec3(0.9)});
   addCamera(gltf, {.eye = {0.0, 1.2, 3.0}, .target = {0.0, 0.6, -2.0}, .yFovDegrees = 50.0});
