@@ -69,6 +69,7 @@ void RayKernels::bind(gpu::BindingSet& set, const gpu::Buffer& rays, const gpu::
   set.set(kBindCounters, counters_);
   set.set(kBindRest, rest_);
   set.set(kBindQueues, dummy_);
+  set.set(kBindMedia, dummy_);
   set.set(kBindHitClasses, nodes_);
   set.set(kBindSampleColor, dummy_);
   set.set(kBindAovs, dummy_);
