@@ -30,7 +30,7 @@ set(public_headers
   base/error.h base/interrupt.h base/log.h
   gpu/device.h
   image/image.h image/image_io.h
-  scene/load.h scene/material_table.h scene/scene.h scene/settings.h scene/shape_mesh.h)
+  scene/displacement.h scene/load.h scene/material_table.h scene/scene.h scene/settings.h scene/shape_mesh.h)
 foreach(header ${public_headers})
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${CMAKE_SOURCE_DIR}/renderer/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crosslight/${room})
