@@ -34,10 +34,15 @@ struct Signature {
   auto operator<=>(const Signature&) const = default;
 };
 
+// Surfaces that send rays on hand them the length of the way so far, by which those find their texture levels.
+constexpr std::uint64_t kSendsRaysOn =
+    bitOf(Effect::reflection) | bitOf(Effect::refraction) | bitOf(Effect::transparency);
+
 Signature signatureOf(const Material& m, bool shape, const Plan& plan) {
   const bool hasAmbient = isClassic(m) && m.classic.ambientFactor != glm::vec3(0.0f);
-  return {shape, isLit(m), isLit(m) || hasAmbient, 1u << static_cast<std::uint32_t>(m.model),
-          effectsOf(m) & plan.effects & kOfMaterials};
+  std::uint64_t effects = effectsOf(m) & plan.effects & kOfMaterials;
+  if ((effects & kSendsRaysOn) != 0) effects |= plan.effects & bitOf(Effect::mipmaps);
+  return {shape, isLit(m), isLit(m) || hasAmbient, 1u << static_cast<std::uint32_t>(m.model), effects};
 }
 
 // The drawn surfaces: (material, shape kinds as bits; 0 for meshes).
