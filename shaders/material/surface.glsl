@@ -195,7 +195,7 @@ SurfacePoint surfaceAt(SurfaceInput at) {
     setMetallicRoughness(m, layers, base.rgb, at, s);
     setLayers(m, layers, at, flip, s);
   }
-  if (m.model == kModel_unlit) {  // unlit: the base color stands for all light
+  if ((specModels & (1u << kModel_unlit)) != 0u && m.model == kModel_unlit) {  // the base color stands for all light
     s.emission = base.rgb;
     s.albedo = base.rgb;
     s.ambientColor = vec3(0.0);
