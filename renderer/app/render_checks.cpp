@@ -12,6 +12,7 @@
 #include "app/picture_layers.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "effects/forced.h"
 #include "effects/material_traits.h"
 #include "gpu/box_search.h"
 #include "raster/strip.h"
@@ -45,6 +46,11 @@ void checkSettings(const Scene& scene, const RenderSettings& s) {
     const bool known =
         std::any_of(std::begin(kAovNames), std::end(kAovNames), [&](const char* n) { return name == n; });
     if (!known) throw UsageError(fmt::format("no AOV '{}'; there are: {}", name, fmt::join(kAovNames, ", ")));
+  }
+  const std::vector<std::string> effects = effectNames();
+  for (const ForcedEffect& forced : s.forcedEffects) {
+    if (std::find(effects.begin(), effects.end(), forced.name) == effects.end())
+      throw UsageError(fmt::format("no effect '{}'; there are: {}", forced.name, fmt::join(effects, ", ")));
   }
 }
 

@@ -21,6 +21,7 @@ struct EffectRecord {
   std::string name;
   bool on = false;
   std::string reason;
+  bool leftOut = false;  // called for, and off because asked
 };
 
 // The trees that rays walked; kind is empty for raster methods.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/command_line.h"
+#include "app/effects_option.h"
 #include "app/frame_plan.h"
 #include "app/lighting_preset.h"
 #include "app/part.h"
@@ -86,8 +87,8 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.text(command, "--environment", o.environment, "FILE",
             "Light from all around: an equirectangular .hdr, .exr or .pfm instead of the scene's", ValueKind::file)
       ->group("Picture");
-  line.choice(command, "--effects", o.effects, {"auto", "all"},
-              "Compile and run what the scene calls for, or everything; the image is the same")
+  line.declare(command.add_option("--effects", o.effects, effectsExplained()), "auto|all|LIST",
+               {ValueKind::choice, {"auto", "all"}})
       ->group("Picture");
 }
 
@@ -226,7 +227,7 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   settings.seed = o.seed;
   settings.kernel = kernelFamilyOf(o.kernel);
   settings.instances = static_cast<InstanceMode>(indexIn(kInstanceModes, o.instances));
-  settings.allEffects = o.effects == "all";
+  applyEffects(o.effects, settings);
   settings.allowNonfinite = o.allowNonfinite;
   if (o.lighting == "opengl") lightAsOpenGl(settings);
   for (const std::string& pair : o.set) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/effects_option.h"
 #include "app/scene_summary.h"
 #include "app/suggest.h"
 #include "app/version.h"
@@ -54,9 +55,11 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
   record["layers"] = Json::array();
   for (const Layer& layer : result.image.layers)
     record["layers"].push_back(layer.name.empty() ? "picture" : layer.name);
-  record["plan"] = {{"all", settings.allEffects}, {"effects", Json::array()}};
+  record["plan"] = {{"all", settings.allEffects}, {"forced", Json::array()}, {"effects", Json::array()}};
+  for (const ForcedEffect& forced : settings.forcedEffects) record["plan"]["forced"].push_back(wordOf(forced));
   for (const EffectRecord& effect : report.effects) {
-    record["plan"]["effects"].push_back({{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}});
+    record["plan"]["effects"].push_back(
+        {{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}, {"leftOut", effect.leftOut}});
   }
   record["gpu"] = Json::array();
   for (const auto& [pass, gpuMs] : report.gpuMs) record["gpu"].push_back({{"pass", pass}, {"gpuMs", gpuMs}});

@@ -13,6 +13,7 @@
 #include "base/time.h"
 #include "effects/approximations.h"
 #include "effects/effects.h"
+#include "effects/forced.h"
 #include "effects/material_traits.h"
 #include "raster/raster.h"
 #include "trace/whitted.h"
@@ -39,7 +40,7 @@ void reportAdaptive(const FilmResult& film, const RenderSettings& s, RenderRepor
 
 std::vector<EffectRecord> recordsOf(const Plan& plan) {
   std::vector<EffectRecord> records;
-  for (const EffectVerdict& v : plan.verdicts) records.push_back({v.name, v.on, v.reason});
+  for (const EffectVerdict& v : plan.verdicts) records.push_back({v.name, v.on, v.reason, v.leftOut});
   return records;
 }
 
@@ -57,6 +58,14 @@ void warnOfApproximations(const Scene& scene, const Plan& plan, const RenderSett
   }
 }
 
+void warnOfWhatIsLeftOut(const Plan& plan) {
+  std::string names;
+  for (const EffectVerdict& v : plan.verdicts) {
+    if (v.leftOut) names += (names.empty() ? "" : ", ") + v.name;
+  }
+  if (!names.empty()) logWarning("the image is not the scene's: left out because asked, though called for: " + names);
+}
+
 // Scenes on the device that are kept: a scene from a few cameras, or a few scenes in turn.
 constexpr std::size_t kScenesKept = 4;
 
@@ -68,6 +77,7 @@ struct PlacedScene {
   std::map<std::string, std::uint64_t> counters;
   TreeRecord tree;
   std::unique_ptr<GpuScene> onDevice;
+  bool hasTrees = false, hasMeshes = true;
 };
 
 // What a scene on the device depends on: not on what belongs to the film or says how far rays go, nor on which camera
@@ -88,9 +98,16 @@ RenderSettings withoutFilm(RenderSettings s) {
   s.sampler = Sampler::sobol;
   s.adaptiveError = 0;
   s.seed = 0;
+  s.allEffects = false;
+  s.forcedEffects.clear();
+  s.effectsWithin = 0;
   s.allowNonfinite = false;
   s.aovs.clear();
   return s;
+}
+
+bool needsTrees(const Plan& plan, const RenderSettings& settings) {
+  return isTraced(settings.method) || rasterSendsRays(plan, settings);
 }
 
 struct PlacedFilm {
@@ -204,13 +221,15 @@ void RenderSession::Impl::make(const RenderRequest& request, const Plan& plan, c
   const RenderSettings& settings = request.settings;
   const Scene& scene = *request.scene;
   const bool traced = isTraced(settings.method);
-  FlatScene flat = flattenScene(scene, origin, traced);
+  FlatScene flat = flattenScene(scene, origin, traced, plan.has(Effect::triangles));
   phases.lap("flatten");
   FlatBvh bvh;
   TreeRecord tree;
-  if (traced || rasterSendsRays(plan, settings)) bvh = treesFor(request, plan, flat, sharing, tree);
+  const bool hasTrees = needsTrees(plan, settings);
+  if (hasTrees) bvh = treesFor(request, plan, flat, sharing, tree);
   phases.lap("bvh");
-  PlacedScene placed{request.scene, settings, withoutFilm(settings), origin, {}, tree, nullptr};
+  PlacedScene placed{request.scene, settings, withoutFilm(settings),      origin, {}, tree,
+                     nullptr,       hasTrees, plan.has(Effect::triangles)};
   placed.counters = {{"triangles", flat.triangleCount()},
                      {"shapes", flat.shapes.size()},
                      {"bvhNodes", bvh.nodes.size()},
@@ -235,7 +254,8 @@ PlacedScene& RenderSession::Impl::place(const RenderRequest& request, const Plan
   const glm::dvec3 origin = originOf(request);
   const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PlacedScene& p) {
     return p.scene.get() == request.scene.get() && p.origin == origin && p.madeFor == key &&
-           (p.tree.kind == "two-level") == sharing.shares;
+           (p.tree.kind == "two-level") == sharing.shares && p.hasMeshes == plan.has(Effect::triangles) &&
+           (p.hasTrees || !needsTrees(plan, request.settings));
   });
   if (found != scenes.end()) {
     scenes.splice(scenes.begin(), scenes, found);
@@ -287,22 +307,25 @@ void RenderSession::forget(const Scene& scene) {
   impl_->scenes.remove_if([&](const PlacedScene& p) { return p.scene.get() == &scene; });
 }
 
-RenderResult RenderSession::render(const RenderRequest& request, const ProgressFunction& progress) {
-  const Scene& scene = *request.scene;
+RenderResult RenderSession::render(const RenderRequest& asked, const ProgressFunction& progress) {
+  const Scene& scene = *asked.scene;
+  checkSettings(scene, asked.settings);
+  RenderRequest request = asked;
+  request.settings = withForcedSwitches(asked.settings);
   const RenderSettings& settings = request.settings;
-  checkSettings(scene, settings);
   checkAgainstDevice(impl_->device.info(), settings);
   RenderResult result;
   RenderReport& report = result.report;
   Phases phases(report);
 
-  const Plan plan = makePlan(scene, settings);
+  const Plan plan = makePlan(scene, asked.settings);
   Sharing sharing;
   if (isTraced(settings.method)) sharing = planSharing(scene, originOf(request), plan, settings);
   const MemoryNeed need = memoryNeedOf(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkLists(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
   warnOfApproximations(scene, plan, settings);
+  warnOfWhatIsLeftOut(plan);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
   PlacedScene& placed = impl_->place(request, plan, sharing, report, phases);
   report.counters = placed.counters;

@@ -17,7 +17,16 @@ constexpr std::uint64_t bitOf(Effect effect) { return std::uint64_t{1} << static
 struct EffectVerdict {
   std::string name;  // "phong" (a model), "point" (a light), "sphere" (a shape), or a row of CL_EFFECTS
   bool on = false;
-  std::string reason;  // names the object that calls for it, or says that none does
+  std::string reason;    // names the object that calls for it, or says that none does
+  bool leftOut = false;  // called for, and off because asked: the image is not the scene's
+  double bound = 0.0;    // linear radiance that leaving it out changes a pixel by at most; of --effects within=E
+};
+
+// Whether one light needs shadow rays, when the effect `shadows` is on.
+struct LightVerdict {
+  std::string name;
+  bool shadows = true;
+  std::string reason;
 };
 
 // Bits as in the lists of shaders/shared/.
@@ -27,6 +36,10 @@ struct Plan {
   std::uint32_t shapes = 0;
   std::uint64_t effects = 0;
   std::vector<EffectVerdict> verdicts;
+  std::vector<LightVerdict> lightShadows;  // per light of the scene; empty: shadows are off
+  std::uint32_t maxDepth = 0;              // of rays: what was asked for, or as much of it as the scene can use
+  std::string depthReason;
+  double bound = 0.0;  // sum of the bounds of what was left out by --effects within=E
 
   bool has(Effect effect) const { return (effects & bitOf(effect)) != 0; }
 };

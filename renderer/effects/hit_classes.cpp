@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bindings.h"
+#include "effects/forced.h"
 #include "effects/material_traits.h"
 
 namespace crosslight {
@@ -58,12 +59,13 @@ std::map<std::pair<int, bool>, std::uint32_t> surfacesOf(const Scene& scene) {
   return surfaces;
 }
 
-HitClass emptyClass(const Plan& plan) {
+HitClass emptyClass(const Plan& plan, std::uint64_t forcedOn) {
   HitClass c;
   c.plan = plan;
   c.plan.verdicts.clear();
   c.plan.models = c.plan.shapes = c.plan.lights = 0;
-  c.plan.effects &= ~(kOfMaterials | bitOf(Effect::shapes) | bitOf(Effect::triangles) | bitOf(Effect::shadows));
+  c.plan.effects &=
+      ~(kOfMaterials | bitOf(Effect::shapes) | bitOf(Effect::triangles) | bitOf(Effect::shadows)) | forcedOn;
   c.lit = false;
   return c;
 }
@@ -72,8 +74,8 @@ void add(const Signature& s, std::uint32_t kinds, const Plan& plan, HitClass& c)
   c.lit = c.lit || s.lit;
   if (s.lit) c.plan.effects |= plan.effects & bitOf(Effect::shadows);
   c.plan.models |= s.model & plan.models;
-  c.plan.effects |= s.effects | bitOf(s.shape ? Effect::shapes : Effect::triangles);
-  c.plan.shapes |= kinds;
+  c.plan.effects |= s.effects | (plan.effects & bitOf(s.shape ? Effect::shapes : Effect::triangles));
+  c.plan.shapes |= kinds & plan.shapes;
   if (s.usesLights) c.plan.lights = plan.lights;
 }
 
@@ -90,6 +92,7 @@ HitClasses classifyHits(const Scene& scene, const Plan& plan, const RenderSettin
   const std::uint64_t rays = std::uint64_t{settings.width} * settings.height * settings.spp;
   const bool pays = settings.hitQueues == HitQueues::on || rays >= kFewestRays;
   if (settings.hitQueues == HitQueues::off || settings.allEffects || !pays) return {};
+  const std::uint64_t forcedOn = plan.effects & forcedOnEffects(settings);
   HitClasses result;
   result.ofMaterial.assign(scene.materials.size(), glm::uvec4(shared::kHitClasses));
   std::map<Signature, std::uint32_t> classes;
@@ -100,7 +103,7 @@ HitClasses classifyHits(const Scene& scene, const Plan& plan, const RenderSettin
     // More kinds of surfaces than classes: the last class takes all that are left.
     const auto next = std::min(static_cast<std::uint32_t>(result.classes.size()), shared::kHitClasses - 1);
     const std::uint32_t at = classes.try_emplace(s, next).first->second;
-    if (at == result.classes.size()) result.classes.push_back(emptyClass(plan));
+    if (at == result.classes.size()) result.classes.push_back(emptyClass(plan, forcedOn));
     add(s, kinds, plan, result.classes[at]);
     (shape ? result.ofMaterial[index].y : result.ofMaterial[index].x) = at;
   }

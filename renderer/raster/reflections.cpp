@@ -133,7 +133,8 @@ std::unique_ptr<Reflections::View> Reflections::viewOf(Scene scene, RenderSettin
   view->scene = std::move(scene);
   view->settings = std::move(settings);
   view->plan = makePlan(view->scene, view->settings);
-  FlatScene flat = flattenScene(view->scene, renderOrigin(cameraOf(view->scene, view->settings)), false);
+  FlatScene flat = flattenScene(view->scene, renderOrigin(cameraOf(view->scene, view->settings)), false,
+                                view->plan.has(Effect::triangles));
   FlatBvh bvh;
   if (rasterSendsRays(view->plan, view->settings))
     bvh = buildFlatBvh(flat, view->scene, view->settings, {.wide = false, .quad = false});

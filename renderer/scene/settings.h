@@ -37,6 +37,14 @@ struct ShadowMapSettings {
   bool operator==(const ShadowMapSettings&) const = default;
 };
 
+// An effect, model, light type or shape kind by its name in the lists of shaders/shared/.
+struct ForcedEffect {
+  std::string name;
+  bool on = false;  // compiled in, whether called for or not; else left out
+
+  bool operator==(const ForcedEffect&) const = default;
+};
+
 struct RenderSettings {
   Method method = Method::phong;
   std::uint32_t width = 512;
@@ -81,8 +89,12 @@ struct RenderSettings {
   std::uint32_t smokeSteps = 32;            // along the part of a ray that lies in smoke
   std::uint64_t maxLayerBytes = 1u << 28;   // raster: for transparent fragments; more than fit are drawn in fewer rows
   bool allEffects = false;                  // compile and run everything instead of what the scene calls for
-  bool allowNonfinite = false;              // NaN and Inf in the result are reported but do not fail the run
-  std::vector<std::string> aovs;            // names of kAovNames
+  std::vector<ForcedEffect> forcedEffects;  // of two on one effect the last counts
+  // Linear radiance per channel and pixel that the image may be off by proven bounds for effects to be left out; 0:
+  // leaving one out changes no bit.
+  double effectsWithin = 0.0;
+  bool allowNonfinite = false;    // NaN and Inf in the result are reported but do not fail the run
+  std::vector<std::string> aovs;  // names of kAovNames
 
   bool operator==(const RenderSettings&) const = default;
 };

@@ -116,7 +116,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
   if (plan.has(Effect::softShadows) && settings.lightSamples > 0) {
     choice.areaShadow = "shadow_area.comp";
-    choice.environmentShadow = "shadow_environment.comp";
+    if (plan.has(Effect::environment)) choice.environmentShadow = "shadow_environment.comp";
   }
   if (plan.has(Effect::smoke)) choice.smoke = "smoke.comp";
   if (branches(plan)) {

@@ -53,16 +53,16 @@ glm::vec3 unitOrZero(const glm::dvec3& v) {
 
 class Flattener {
  public:
-  Flattener(const Scene& scene, const glm::dvec3& origin, bool analyticShapes)
-      : scene_(scene), origin_(origin), analyticShapes_(analyticShapes) {}
+  Flattener(const Scene& scene, const glm::dvec3& origin, bool analyticShapes, bool meshes)
+      : scene_(scene), origin_(origin), analyticShapes_(analyticShapes), meshes_(meshes) {}
 
   FlatScene run() {
     flat_.origin = origin_;
     for (const MeshInstance& instance : scene_.instances) {
-      if (analyticShapes_ && instance.replacedByShape) continue;
+      if (!meshes_ || (analyticShapes_ && instance.replacedByShape)) continue;
       addInstance(instance);
     }
-    if (!analyticShapes_) addShapeMeshes();
+    if (meshes_ && !analyticShapes_) addShapeMeshes();
     flat_.meshDrawCount = static_cast<std::uint32_t>(flat_.draws.size());
     if (analyticShapes_) addShapes();
     for (const glm::vec3& p : flat_.positions) flat_.bounds.add(p);
@@ -193,6 +193,7 @@ class Flattener {
   const Scene& scene_;
   glm::dvec3 origin_;
   bool analyticShapes_;
+  bool meshes_;
   FlatScene flat_;
 };
 
@@ -203,8 +204,8 @@ std::uint32_t surfaceFlags(const Material& m) {
   return (m.doubleSided ? 0u : shared::kPrimitiveCutsBackFaces) | (mayPass ? shared::kPrimitiveMayPass : 0u);
 }
 
-FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes) {
-  return Flattener(scene, origin, analyticShapes).run();
+FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes, bool meshes) {
+  return Flattener(scene, origin, analyticShapes, meshes).run();
 }
 
 }  // namespace crosslight

@@ -40,7 +40,7 @@ std::uint32_t surfaceFlags(const Material& material);
 
 // `analyticShapes`: keep shapes as such and leave out the meshes that they replace (rays); else draw meshes,
 // tessellating shapes that have none (raster). `origin` is the world position that becomes zero. DeviceError beyond
-// 2^31 indices.
-FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes);
+// 2^31 indices. Without `meshes` nothing is drawn that has triangles.
+FlatScene flattenScene(const Scene& scene, const glm::dvec3& origin, bool analyticShapes, bool meshes = true);
 
 }  // namespace crosslight

@@ -33,6 +33,7 @@ Sharing planSharing(const Scene& scene, const glm::dvec3& origin, const Plan& pl
   if (settings.instances == InstanceMode::flatten) return {false, "--instances flatten", 0, {}};
   if (settings.kernel == KernelFamily::rayQuery)
     return {false, "--kernel ray-query: the device searches all triangles by a structure of its own", 0, {}};
+  if (!plan.has(Effect::triangles)) return {false, "no mesh is drawn", 0, {}};
   if (showsItsTree(plan)) return {false, "shadows pass through transparent surfaces", 0, {}};
   std::vector<std::vector<std::size_t>> instancesOf(scene.meshes.size());
   std::uint64_t all = 0;

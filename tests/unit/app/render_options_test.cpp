@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "app/effects_option.h"
 #include "app/render_job.h"
 #include "app/set_keys.h"
 #include "base/error.h"
@@ -140,6 +141,36 @@ TEST(RenderOptions, aovsNeedAFormatWithLayers) {
 
 TEST(RenderOptions, everyMethodHasANameThatLeadsBack) {
   for (const Method method : allMethods()) EXPECT_EQ(methodOf(nameOf(method)), method);
+}
+
+TEST(EffectsOption, listForcesSingleEffectsOnTopOfABase) {
+  RenderSettings settings;
+  applyEffects("auto", settings);
+  EXPECT_TRUE(settings == RenderSettings{});
+  applyEffects("all", settings);
+  EXPECT_TRUE(settings.allEffects);
+  applyEffects("all,-fog,+sphere", settings);
+  EXPECT_TRUE(settings.allEffects);
+  EXPECT_THAT(settings.forcedEffects, ElementsAre(ForcedEffect{"fog", false}, ForcedEffect{"sphere", true}));
+  applyEffects("-phong", settings);
+  EXPECT_FALSE(settings.allEffects);
+  EXPECT_THAT(settings.forcedEffects, ElementsAre(ForcedEffect{"phong", false}));
+}
+
+TEST(EffectsOption, whatCannotBeMeantIsRefusedWithTheRemedy) {
+  const auto refusal = [](const std::string& text) {
+    return messageOf([&] {
+      RenderSettings settings;
+      applyEffects(text, settings);
+    });
+  };
+  EXPECT_THAT(refusal("-fogg"), HasSubstr("Did you mean 'fog'?"));
+  EXPECT_THAT(refusal("-fog,+shadow"), HasSubstr("Did you mean 'shadows'?"));
+  EXPECT_THAT(refusal("fog"), HasSubstr("+fog compiles it in, -fog leaves it out"));
+  EXPECT_THAT(refusal("+fog,-fog"), HasSubstr("exclude each other"));
+  EXPECT_THAT(refusal("-fog,all"), HasSubstr("comes first"));
+  for (const std::string bad : {"", ",", "-", "+", "-fog,", "--fog", "-fog +shadows"})
+    EXPECT_THAT(refusal(bad), HasSubstr("unknown effect")) << bad;
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// Rules on light: its types, and whether shadows are looked for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "effects/analysis.h"
+
+namespace crosslight {
+namespace {
+
+void types(Analysis& a) {
+  const auto add = [&](std::uint32_t value, const char* name, LightType type) {
+    const auto& lights = a.scene.lights;
+    const auto who = std::find_if(lights.begin(), lights.end(), [&](const Light& l) { return l.type == type; });
+    const bool on = who != lights.end();
+    const auto index = static_cast<std::size_t>(who - lights.begin());
+    a.draft.addListed(&Plan::lights, value, name, on,
+                      on ? "used by " + quoted("light", who->name, index) : "nothing in the scene uses it");
+  };
+#define CL_ROW(value, name, ...) add(value, #name, LightType::name);
+  CL_LIGHT_TYPES(CL_ROW)
+#undef CL_ROW
+}
+
+void shadows(Analysis& a) {
+  const RenderSettings& s = a.settings;
+  const auto add = [&](bool on, const std::string& reason) { a.draft.add(Effect::shadows, "shadows", on, reason); };
+  if (s.method == Method::wireframe) return add(false, "edges are not lit");
+  if (a.traced && !s.shadows) return add(false, "switched off");
+  if (!a.traced && s.rasterShadows == RasterShadows::off)
+    return add(false, "raster shows no shadows; --set raster-shadows=rays or maps does");
+  const bool around = a.traced && a.scene.atmosphere.environment.present();
+  const bool lit = !a.scene.lights.empty() || around;
+  add(lit, lit ? fmt::format("{} lights {}cast shadows", a.scene.lights.size(), around ? "and the environment " : "")
+               : "the scene has no light");
+}
+
+void softShadows(Analysis& a) {
+  const RenderSettings& s = a.settings;
+  const auto found = std::find_if(a.scene.lights.begin(), a.scene.lights.end(), isArea);
+  const bool area = found != a.scene.lights.end();
+  const bool around = a.scene.atmosphere.environment.present();
+  const bool on = a.traced && s.shadows && s.lightSamples > 0 && (area || around);
+  const auto index = static_cast<std::size_t>(found - a.scene.lights.begin());
+  const std::string who =
+      area ? quoted("light", found->name, index) + " has an area" : "the environment shines from all around";
+  a.draft.add(Effect::softShadows, "softShadows", on,
+              !a.traced          ? "raster methods cast shadows from a light's middle"
+              : !s.shadows       ? "switched off"
+              : !area && !around ? "no light has an area, and there is no environment"
+              : !s.lightSamples  ? "switched off: lights with an area cast shadows from their middle"
+                                 : fmt::format("{}, {} rays to it", who, s.lightSamples));
+}
+
+}  // namespace
+
+void judgeLights(Analysis& a) {
+  types(a);
+  shadows(a);
+  softShadows(a);
+}
+
+}  // namespace crosslight
