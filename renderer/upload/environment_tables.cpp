@@ -27,8 +27,7 @@ struct Grid {
   int width = 0, height = 0;
   std::vector<Rgb> texels;
   const Rgb& at(int x, int y) const {
-    return texels[static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>((x % width + width) % width)];
+    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
   }
 };
 
@@ -72,13 +71,13 @@ Grid halved(const Grid& g) {
   return half;
 }
 
-Rgb bilinear(const Grid& g, const glm::dvec3& d) {
-  const double u = 0.5 + std::atan2(d.x, -d.z) / (2.0 * kPi), v = std::atan2(std::hypot(d.x, d.z), d.y) / kPi;
+// u and v in [0,1], as of EnvironmentMap; u may lie outside, v not. Rows end at the poles, columns go round.
+Rgb bilinear(const Grid& g, double u, double v) {
   const double x = u * g.width - 0.5, y = v * g.height - 0.5;
-  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
-  const double fx = x - ix, fy = y - iy;
-  return (1 - fy) * ((1 - fx) * g.at(ix, iy) + fx * g.at(ix + 1, iy)) +
-         fy * ((1 - fx) * g.at(ix, iy + 1) + fx * g.at(ix + 1, iy + 1));
+  const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
+  const int x0 = (static_cast<int>(left) % g.width + g.width) % g.width, x1 = x0 + 1 == g.width ? 0 : x0 + 1;
+  const int y0 = std::max(static_cast<int>(top), 0), y1 = std::min(static_cast<int>(top) + 1, g.height - 1);
+  return (1 - fy) * ((1 - fx) * g.at(x0, y0) + fx * g.at(x1, y0)) + fy * ((1 - fx) * g.at(x0, y1) + fx * g.at(x1, y1));
 }
 
 // Rows of a picture in threads.
@@ -171,22 +170,39 @@ std::vector<LobeSample> lobeSamples(double alpha, const Grid& g) {
   return samples;
 }
 
+// A lobe sample as the texels of one row see it: turned about the vertical they are all alike.
+struct RowSample {
+  double du;  // to the texel's own u
+  double v;
+  double weight;
+  std::size_t lower;  // of two levels
+  double share;       // of the level above
+};
+std::vector<RowSample> samplesOfRow(const std::vector<LobeSample>& samples, double theta, std::size_t levels) {
+  std::vector<RowSample> row;
+  for (const LobeSample& s : samples) {
+    // The normal leans by theta from the vertical towards -Z; the lobe's own X lies across that plane.
+    const double up = s.wi.z * std::cos(theta) + s.wi.y * std::sin(theta);
+    const double ahead = s.wi.z * std::sin(theta) - s.wi.y * std::cos(theta);
+    const double level = std::min(s.level, static_cast<double>(levels - 1));
+    const auto lower = static_cast<std::size_t>(level);
+    row.push_back({std::atan2(s.wi.x, ahead) / (2 * kPi), std::atan2(std::hypot(s.wi.x, ahead), up) / kPi, s.weight,
+                   lower, level - static_cast<double>(lower)});
+  }
+  return row;
+}
+
 void addLobes(const std::vector<Grid>& levels, const Rgb& least, double roughness, glm::vec4* out) {
   const std::vector<LobeSample> samples = lobeSamples(std::max(roughness * roughness, kSmallestAlpha), levels[0]);
   forRows(kHeight, [&](int y) {
+    const std::vector<RowSample> row = samplesOfRow(samples, kPi * (y + 0.5) / kHeight, levels.size());
     for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec3 n = environmentDirection((x + 0.5) / kWidth, (y + 0.5) / kHeight);
-      const glm::dvec3 t =
-          glm::normalize(glm::cross(n, std::abs(n.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
-      const glm::dvec3 b = glm::cross(n, t);
+      const double u = (x + 0.5) / kWidth;
       Rgb sum(0.0);
       double weights = 0;
-      for (const LobeSample& s : samples) {
-        const glm::dvec3 d = s.wi.x * t + s.wi.y * b + s.wi.z * n;
-        const double last = static_cast<double>(levels.size() - 1), level = std::min(s.level, last);
-        const auto lower = static_cast<std::size_t>(level), upper = std::min(lower + 1, levels.size() - 1);
-        const double f = level - static_cast<double>(lower);
-        sum += s.weight * ((1 - f) * bilinear(levels[lower], d) + f * bilinear(levels[upper], d));
+      for (const RowSample& s : row) {
+        sum += s.weight * (1 - s.share) * bilinear(levels[s.lower], u + s.du, s.v);
+        if (s.share > 0) sum += s.weight * s.share * bilinear(levels[s.lower + 1], u + s.du, s.v);
         weights += s.weight;
       }
       out[y * kWidth + x] = texel(least + sum / weights);
@@ -225,17 +241,19 @@ double diffuseSchlick(double nv) {
   return sum;
 }
 
-void addTable(glm::vec4* out) {
+std::vector<glm::vec4> lobeTable() {
   constexpr int kSize = kEnvironmentTable;
+  std::vector<glm::vec4> table(std::size_t{kSize} * kSize);
   forRows(kSize, [&](int x) {
     const double nv = std::max(static_cast<double>(x) / (kSize - 1), 1e-4);
     const double mean = diffuseSchlick(nv);
     for (int y = 0; y < kSize; ++y) {
       const double roughness = static_cast<double>(y) / (kSize - 1);
       const glm::dvec2 lobe = lobeIntegral(nv, std::max(roughness * roughness, kSmallestAlpha));
-      out[y * kSize + x] = glm::vec4(lobe.x, lobe.y, mean, 0.0);
+      table[static_cast<std::size_t>(y * kSize + x)] = glm::vec4(lobe.x, lobe.y, mean, 0.0);
     }
   });
+  return table;
 }
 
 // Running shares; the last one is 1 exactly, and where nothing shines all are alike.
@@ -300,7 +318,8 @@ std::vector<glm::vec4> environmentTexels(const EnvironmentMap& map) {
   for (std::uint32_t level = 1; level <= kEnvironmentLevels; ++level) {
     addLobes(levels, least, static_cast<double>(level) / kEnvironmentLevels, &texels[maps + level * kSize]);
   }
-  addTable(&texels[maps + (1 + kEnvironmentLevels) * kSize]);
+  static const std::vector<glm::vec4> table = lobeTable();  // of no scene: once is enough
+  std::copy(table.begin(), table.end(), &texels[maps + (1 + kEnvironmentLevels) * kSize]);
   return texels;
 }
 
