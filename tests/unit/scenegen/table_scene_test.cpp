@@ -1,5 +1,6 @@
 // The table of presets as a scene: none is missing.
 #include <gtest/gtest.h>
+#include <filesystem>
 
 #include <set>
 
@@ -10,7 +11,8 @@ namespace crosslight::scenegen {
 namespace {
 
 TEST(MaterialTableScene, showsEveryPresetOnce) {
-  const Scene scene = loadScene(std::string(CROSSLIGHT_SOURCE_DIR) + "/scenes/showcase/material_table.gltf");
+  const Scene scene =
+      loadScene(std::filesystem::path(CROSSLIGHT_SOURCE_DIR) / "scenes" / "showcase" / "material_table.gltf");
   std::multiset<std::string> shown, known;
   for (const MeshInstance& instance : scene.instances) shown.insert(instance.name);
   for (const MaterialPreset& preset : materialPresets()) known.emplace(preset.name);
