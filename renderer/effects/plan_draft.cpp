@@ -20,6 +20,11 @@ void PlanDraft::add(Effect effect, const char* name, bool on, const std::string&
   if (plan_.verdicts.back().on) plan_.effects |= bitOf(effect);
 }
 
+void PlanDraft::addSwitchedOff(Effect effect, const char* name, const std::string& reason) {
+  if (forcedState(settings_, name) == true) return add(effect, name, false, reason);
+  plan_.verdicts.push_back({name, false, reason});
+}
+
 void PlanDraft::addListed(std::uint32_t Plan::*bits, std::uint32_t value, const char* name, bool on,
                           const std::string& reason) {
   plan_.verdicts.push_back(settled(name, on, reason));

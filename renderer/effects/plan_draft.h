@@ -12,6 +12,8 @@ class PlanDraft {
   explicit PlanDraft(const RenderSettings& settings) : settings_(settings) {}
 
   void add(Effect effect, const char* name, bool on, const std::string& reason);
+  // What an option switches off: compiling all effects in does not ask for it, forcing it by its name does.
+  void addSwitchedOff(Effect effect, const char* name, const std::string& reason);
   // A row of a list whose bits lie in `bits`.
   void addListed(std::uint32_t Plan::*bits, std::uint32_t value, const char* name, bool on, const std::string& reason);
   // Switches on what a rule has judged off, because of others; what is on keeps its reason.

@@ -26,7 +26,7 @@ void shadows(Analysis& a) {
   const RenderSettings& s = a.settings;
   const auto add = [&](bool on, const std::string& reason) { a.draft.add(Effect::shadows, "shadows", on, reason); };
   if (s.method == Method::wireframe) return add(false, "edges are not lit");
-  if (a.traced && !s.shadows) return add(false, "switched off");
+  if (a.traced && !s.shadows) return a.draft.addSwitchedOff(Effect::shadows, "shadows", "switched off");
   if (!a.traced && s.rasterShadows == RasterShadows::off)
     return add(false, "raster shows no shadows; --set raster-shadows=rays or maps does");
   const bool around = a.traced && a.scene.atmosphere.environment.present();
@@ -37,16 +37,16 @@ void shadows(Analysis& a) {
 
 void softShadows(Analysis& a) {
   const RenderSettings& s = a.settings;
+  if (a.traced && !s.shadows) return a.draft.addSwitchedOff(Effect::softShadows, "softShadows", "switched off");
   const auto found = std::find_if(a.scene.lights.begin(), a.scene.lights.end(), isArea);
   const bool area = found != a.scene.lights.end();
   const bool around = a.scene.atmosphere.environment.present();
-  const bool on = a.traced && s.shadows && s.lightSamples > 0 && (area || around);
+  const bool on = a.traced && s.lightSamples > 0 && (area || around);
   const auto index = static_cast<std::size_t>(found - a.scene.lights.begin());
   const std::string who =
       area ? quoted("light", found->name, index) + " has an area" : "the environment shines from all around";
   a.draft.add(Effect::softShadows, "softShadows", on,
               !a.traced          ? "raster methods cast shadows from a light's middle"
-              : !s.shadows       ? "switched off"
               : !area && !around ? "no light has an area, and there is no environment"
               : !s.lightSamples  ? "switched off: lights with an area cast shadows from their middle"
                                  : fmt::format("{}, {} rays to it", who, s.lightSamples));

@@ -16,7 +16,7 @@ void addRayRule(Analysis& a, const MaterialRule& rule) {
   const bool wanted = rule.effect == Effect::reflection ? a.settings.reflection : a.settings.refraction;
   if (!a.traced && rule.effect == Effect::reflection) return rasterReflections(a, rule);
   if (!a.traced) return a.draft.add(rule.effect, rule.name, false, "not simulated by raster methods");
-  if (!wanted || a.settings.maxDepth == 0) return a.draft.add(rule.effect, rule.name, false, "switched off");
+  if (!wanted || a.settings.maxDepth == 0) return a.draft.addSwitchedOff(rule.effect, rule.name, "switched off");
   a.addByMaterial(rule);
 }
 

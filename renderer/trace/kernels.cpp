@@ -114,7 +114,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
   if (plan.has(Effect::shapes)) choice.shapes = "shapes.comp";
   if (plan.has(Effect::shadows)) choice.shadow = shadowPackets ? "shadow_packet.comp" : "shadow.comp";
   if (!choice.shadow.empty() && shadowPackets) choice.shadowRest = "shadow.comp";
-  if (plan.has(Effect::softShadows) && settings.lightSamples > 0) {
+  if (plan.has(Effect::shadows) && plan.has(Effect::softShadows) && settings.lightSamples > 0) {
     choice.areaShadow = "shadow_area.comp";
     if (plan.has(Effect::environment)) choice.environmentShadow = "shadow_environment.comp";
   }

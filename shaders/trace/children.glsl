@@ -163,7 +163,7 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
     if (bent) throughWeight *= fog.fog.clear;
     else passed = throughWeight;
   }
-  bool bothSides = bent || (CL_HAS(nestedMedia) && ray.medium != kNoRayNode);  // a body is met from inside
+  bool bothSides = bent || (nestsMedia() && ray.medium != kNoRayNode);  // a body is met from inside
   NewRay through = NewRay(onward, throughWeight, bothSides ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
                           bent ? 0.0 : fog.distance, !bent && fog.seenDirectly,
                           bent && media.bounds ? media.at.media : media.here, path);

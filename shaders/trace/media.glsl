@@ -91,6 +91,9 @@ const SurfaceMedia kNoMedia =
 
 bool isHidden(SurfaceMedia media) { return CL_HAS(nestedMedia) && media.bounds && !media.at.exists; }
 
+// Of this scene: a pipeline with everything compiled in must ask.
+bool nestsMedia() { return CL_HAS(nestedMedia) && (frame.optics & kOpticsNestedMedia) != 0u; }
+
 // The camera's rays begin where the frame says.
 SurfaceMedia mediaAtHit(uint node, RayRecord ray, HitSurface h, vec3 kept) {
   SurfaceMedia media = kNoMedia;
@@ -98,7 +101,7 @@ SurfaceMedia mediaAtHit(uint node, RayRecord ray, HitSurface h, vec3 kept) {
   media.here = frame.cameraMedia;
   if (!first) media.here = mediaOfNodes[node];
   media.cameraRayKept = first ? kept : vec3(1.0);
-  if ((frame.optics & kOpticsNestedMedia) == 0u) return media;
+  if (!nestsMedia()) return media;
   media.bounds = (materialOf(h.at.materialId).flags & (kMaterialRefracts | kMaterialThin)) == kMaterialRefracts;
   if (media.bounds) media.at = boundaryAt(media.here, h.at.materialId, h.at.frontFacing);
   return media;
