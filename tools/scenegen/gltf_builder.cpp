@@ -141,6 +141,7 @@ Json GltfBuilder::addGeometry(const Primitive& mesh) {
   if (!mesh.flatNormals) attributes["NORMAL"] = addAccessor(mesh.normals, "VEC3", true);
   if (!mesh.tangents.empty()) attributes["TANGENT"] = addAccessor(mesh.tangents, "VEC4", true);
   if (!mesh.uv0.empty()) attributes["TEXCOORD_0"] = addAccessor(mesh.uv0, "VEC2", true);
+  if (!mesh.uv1.empty()) attributes["TEXCOORD_1"] = addAccessor(mesh.uv1, "VEC2", true);
   if (!mesh.colors.empty()) attributes["COLOR_0"] = addAccessor(mesh.colors, "VEC4", true);
   const int indices = addIndices(mesh.indices, mesh.positions.size());
   return {{"attributes", attributes}, {"indices", indices}};

@@ -1,11 +1,9 @@
 // Scenes per light with an area: rectangle, disk, sphere; on metal and plastic, and on classic materials.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 
 #include "scenegen/meshes.h"
 #include "scenegen/parts.h"
+#include "scenegen/radiance_picture.h"
 #include "scenegen/registry.h"
 
 namespace crosslight::scenegen {
@@ -77,25 +75,6 @@ void areaGlossy(GltfBuilder& gltf) {
   addAreaLight(gltf, areaLight("lamp", "disk", {1.0, 0.8, 0.6}, 6.0, 0.9), {-1.8, 2.2, 2.0}, {0.0, 0.3, 0.0});
   addCamera(gltf, {.eye = {0.0, 2.0, 4.6}, .target = {0.0, 0.35, -0.3}, .yFovDegrees = 65.0});
   setAtmosphere(gltf, 0.0, {0.02, 0.02, 0.03});
-}
-
-// Radiance's RGBE (Ward 1991, "Real Pixels"), pixels as they are.
-std::vector<std::byte> radiancePicture(int width, int height, const std::function<dvec3(int x, int y)>& pixel) {
-  const std::string head =
-      "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
-  std::vector<std::byte> bytes;
-  for (const char c : head) bytes.push_back(static_cast<std::byte>(c));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const dvec3 c = pixel(x, y);
-      int exponent = 0;
-      std::frexp(std::max({c.r, c.g, c.b, 1e-30}), &exponent);
-      for (int i = 0; i < 3; ++i)
-        bytes.push_back(static_cast<std::byte>(static_cast<int>(std::ldexp(c[i], 8 - exponent))));
-      bytes.push_back(static_cast<std::byte>(exponent + 128));
-    }
-  }
-  return bytes;
 }
 
 // A blue sky over brown ground, a bright window of it low on the left.
