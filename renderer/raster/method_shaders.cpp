@@ -44,14 +44,14 @@ std::uint32_t varyingsOf(const RenderSettings& settings, const Plan& plan) {
   }
   if (plan.has(Effect::vertexColors)) bits |= shared::kVaryingColor;
   if (plan.has(Effect::fog) || plan.has(Effect::smoke)) bits |= shared::kVaryingPosition;
-  if (settings.rasterReflections != RasterReflections::off && plan.has(Effect::reflection))
-    bits |= shared::kVaryingPosition | shared::kVaryingNormal;
-  // Layers dim what is textured below them by the angle to the viewer, per fragment by any method.
-  if (plan.has(Effect::clearcoat) || plan.has(Effect::sheen)) bits |= shared::kVaryingPosition | shared::kVaryingNormal;
   // A pixel's size on the surface hangs on its distance.
   if (plan.has(Effect::mipmaps)) bits |= shared::kVaryingPosition;
-  if (settings.method != Method::phong) return bits;
-  // Lighting per fragment; at a centroid (flat.centroid) the triangle's corners are read instead.
+  // By methods that light vertices, fragments look at the surface once more for what it mirrors, and where layers dim
+  // what is textured below them by the angle to the viewer. A centroid's fragments are lit, if elsewhere.
+  const bool reflects = settings.rasterReflections != RasterReflections::off && plan.has(Effect::reflection);
+  const bool dims = plan.has(Effect::clearcoat) || plan.has(Effect::sheen);
+  const bool centroid = settings.method == Method::flat && settings.flatVertex == FlatVertex::centroid;
+  if (settings.method != Method::phong && !centroid && !reflects && !dims) return bits;
   bits |= shared::kVaryingPosition | shared::kVaryingNormal;
   for (const Effect e : {Effect::normalMap, Effect::clearcoat, Effect::anisotropy}) {
     if (plan.has(e)) bits |= shared::kVaryingTangent;
