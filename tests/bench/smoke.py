@@ -20,6 +20,7 @@ COMPARED = {
     "rays": {(kind, peer) for kind in ("primary", "shadow", "bounce") for peer in ("embree1", "embree8")},
     "raster": {(method + kind, "osmesa" + kind) for method in ("flat", "gouraud", "phong") for kind in ("", "Float")},
     "start": {("warm", "cold")},
+    "effects": {("specialized", "full")},
 }
 # What it compares with itself.
 ALWAYS = {"bvh": {("refit", "medium"), ("load", "medium")}, "growth": {("threads2", "threads1")}}
@@ -94,6 +95,11 @@ def check_suite(record, suite, named):
     left_out = [item for item in record["omitted"] if item["name"].startswith(suite)]
     demand(bool(left_out) == absent, f"{suite} leaves out {left_out}")
     demand(any(name.startswith(suite + ".") for name in named), f"no absolute figure of {suite}")
+    if suite == "effects":
+        gains = {c["name"]: c for c in record["checks"] if c["name"].endswith("Gain")}
+        demand(len(gains) == 6, f"gains {list(gains)}")
+        for gain in gains.values():
+            demand(0 < gain["least"] <= gain["geometricMean"] * (1 + 1e-9), f"{gain}")
     if suite == "start":
         for part in PARTS:
             demand(f"start.cold.{part}" in named and f"start.warm.{part}" in named, f"start lacks {part}")

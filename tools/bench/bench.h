@@ -14,6 +14,7 @@ namespace crosslight::bench {
 struct Bench {
   RoundOptions rounds;
   bool quick = false;              // sizes for a smoke test: the figures mean nothing
+  std::string only;                // effects: scenes whose names hold this text
   bool large = false;              // a million triangles too
   std::filesystem::path program;   // crosslight, for the suites that start it
   std::filesystem::path scenes;    // the repository's scenes/
@@ -31,6 +32,7 @@ void benchRaster(Bench& bench);
 void benchStart(Bench& bench);
 void benchPeers(Bench& bench);
 void benchGrowth(Bench& bench);
+void benchEffects(Bench& bench);
 
 inline constexpr const char* kNoEmbree =
     "this build has no Embree: install libembree-dev (ci/setup test) and configure anew";

@@ -27,17 +27,18 @@ struct Suite {
   void (*run)(Bench&);
   bool onlyNamed = false;  // many minutes: not part of "all"
 };
-constexpr Suite kSuites[] = {{"load", benchLoad},          {"bvh", benchBvh},     {"rays", benchRays},
-                             {"raster", benchRaster},      {"start", benchStart}, {"peers", benchPeers, true},
-                             {"growth", benchGrowth, true}};
+constexpr Suite kSuites[] = {
+    {"load", benchLoad},   {"bvh", benchBvh},           {"rays", benchRays},           {"raster", benchRaster},
+    {"start", benchStart}, {"peers", benchPeers, true}, {"growth", benchGrowth, true}, {"effects", benchEffects, true}};
 
 constexpr const char* kUsage =
-    "usage: crosslight_bench [load|bvh|rays|raster|start|peers|growth]... --scenes DIR [option]...\n"
-    "when none is named, all but peers and growth\n"
+    "usage: crosslight_bench [load|bvh|rays|raster|start|peers|growth|effects]... --scenes DIR [option]...\n"
+    "when none is named, all but peers, growth and effects\n"
     "  --json FILE|-    write a record too; '-' is stdout, the table then goes to stderr\n"
     "  --rounds N       rounds that count, after 2 to warm up; 9 at least for a result (15)\n"
     "  --large          a million triangles too; ten million in growth\n"
     "  --pictures DIR   keep the pictures of peers\n"
+    "  --only TEXT      scenes of effects whose names hold it: 'showcase/', 'feature/mirror'\n"
     "  --quick          tiny sizes: does it run at all?\n"
     "  --device NAME    as in 'crosslight render'\n"
     "  --program FILE   crosslight, for start, peers and growth (beside this program)\n"
@@ -45,7 +46,7 @@ constexpr const char* kUsage =
 
 struct Options {
   std::vector<const Suite*> suites;
-  std::string json, device;
+  std::string json, device, only;
   std::filesystem::path scenes, program, pictures;
   std::size_t rounds = 15;
   bool quick = false, large = false, peers = false, help = false;
@@ -88,6 +89,8 @@ Options parse(const std::vector<std::string>& words) {
       o.scenes = value();
     else if (word == "--pictures")
       o.pictures = value();
+    else if (word == "--only")
+      o.only = value();
     else if (word == "--quick")
       o.quick = true;
     else if (word == "--large")
@@ -186,6 +189,7 @@ int runSuites(const Options& options, const std::filesystem::path& self, const s
   bench.quick = options.quick;
   if (bench.quick) bench.rounds.shortestSeconds = 0;
   bench.large = options.large;
+  bench.only = options.only;
   bench.program = options.program.empty() ? self.parent_path() / "crosslight" : options.program;
   bench.scenes = options.scenes;
   bench.pictures = options.pictures;
