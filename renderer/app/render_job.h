@@ -40,6 +40,9 @@ struct RenderReport {
   std::vector<std::pair<std::string, double>> timesMs;
   std::vector<std::pair<std::string, double>> gpuMs;  // by pass, from timestamps; empty where the device has none
   std::vector<EffectRecord> effects;
+  std::vector<EffectRecord> lightShadows;  // by light, where shadows are on
+  std::uint32_t rayDepth = 0;              // segments after the primary one that the scene can use
+  std::string depthReason;
   std::map<std::string, std::uint64_t> rays;      // primary, shadow, reflection, refraction, passThrough
   std::map<std::string, std::uint64_t> counters;  // triangles, draws, bvhNodes, pixels, samples, ...
   std::uint64_t nonfinite = 0;                    // NaN or Inf samples seen by the film

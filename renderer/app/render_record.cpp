@@ -61,6 +61,10 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
     record["plan"]["effects"].push_back(
         {{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}, {"leftOut", effect.leftOut}});
   }
+  record["plan"]["lightShadows"] = Json::array();
+  for (const EffectRecord& light : report.lightShadows)
+    record["plan"]["lightShadows"].push_back({{"light", light.name}, {"on", light.on}, {"reason", light.reason}});
+  record["plan"]["rayDepth"] = {{"most", report.rayDepth}, {"reason", report.depthReason}};
   record["gpu"] = Json::array();
   for (const auto& [pass, gpuMs] : report.gpuMs) record["gpu"].push_back({{"pass", pass}, {"gpuMs", gpuMs}});
   record["rays"] = report.rays;

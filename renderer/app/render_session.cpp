@@ -69,6 +69,9 @@ void warnOfWhatIsLeftOut(const Plan& plan) {
 // Scenes on the device that are kept: a scene from a few cameras, or a few scenes in turn.
 constexpr std::size_t kScenesKept = 4;
 
+// Sets of kernels that are kept: frames of a turn whose plans change with what is in view, and back.
+constexpr std::size_t kPlansKept = 4;
+
 // A flattened scene on the device. Its settings are the render's that uses it: GpuScene looks at them for each sample.
 struct PlacedScene {
   std::shared_ptr<const Scene> scene;
@@ -170,7 +173,8 @@ struct RenderSession::Impl {
   KeptTrees keptTrees;            // of the last frame
   std::unique_ptr<CachedTrees> cachedTrees;
   PlacedFilm film;
-  std::shared_ptr<KernelPipelines> kernels;  // of the last traced picture
+  std::list<std::shared_ptr<KernelPipelines>> pools;  // the latest first
+  std::shared_ptr<KernelPipelines> kernels;           // of the last traced picture
 };
 
 // Where pictures show whether a tree was built or moved each frame gets its own.
@@ -285,11 +289,17 @@ Film& RenderSession::Impl::filmFor(const FilmSettings& settings, RenderReport& r
 std::shared_ptr<KernelPipelines> RenderSession::Impl::kernelsFor(const RenderRequest& request, const Plan& plan,
                                                                  const Sharing& sharing, RenderReport& report) {
   if (!isTraced(request.settings.method)) return nullptr;
-  if (kernels != nullptr && kernels->serve(device.info(), *request.scene, plan, request.settings, sharing.shares)) {
+  const auto found = std::find_if(pools.begin(), pools.end(), [&](const std::shared_ptr<KernelPipelines>& p) {
+    return p->serve(device.info(), *request.scene, plan, request.settings, sharing.shares);
+  });
+  if (found != pools.end()) {
     report.reused.push_back("kernels");
-    return kernels;
+    pools.splice(pools.begin(), pools, found);
+  } else {
+    while (pools.size() >= kPlansKept) pools.pop_back();
+    pools.push_front(std::make_shared<KernelPipelines>(device, *request.scene, plan, request.settings, sharing.shares));
   }
-  kernels = std::make_shared<KernelPipelines>(device, *request.scene, plan, request.settings, sharing.shares);
+  kernels = pools.front();
   return kernels;
 }
 
@@ -319,13 +329,14 @@ RenderResult RenderSession::render(const RenderRequest& asked, const ProgressFun
   Phases phases(report);
 
   const Plan plan = makePlan(scene, asked.settings);
+  request.settings.maxDepth = plan.maxDepth;
   Sharing sharing;
   if (isTraced(settings.method)) sharing = planSharing(scene, originOf(request), plan, settings);
   const MemoryNeed need = memoryNeedOf(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkLists(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
   warnOfApproximations(scene, plan, settings);
-  warnOfWhatIsLeftOut(plan);
+  if (asked.warnsOfForced) warnOfWhatIsLeftOut(plan);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
   PlacedScene& placed = impl_->place(request, plan, sharing, report, phases);
   report.counters = placed.counters;
@@ -353,6 +364,10 @@ RenderResult RenderSession::render(const RenderRequest& asked, const ProgressFun
 
   report.gpuMs = tally.spansMs();
   report.effects = recordsOf(plan);
+  for (const LightVerdict& light : plan.lightShadows)
+    report.lightShadows.push_back({light.name, light.shadows, light.reason});
+  report.rayDepth = plan.maxDepth;
+  report.depthReason = plan.depthReason;
   report.rays = technique->rays();
   for (const auto& [name, count] : technique->counters()) report.counters[name] = count;
   report.counters["pixels"] = film.exposedPixels();

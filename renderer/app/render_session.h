@@ -22,6 +22,7 @@ struct RenderRequest {
   std::optional<DisplayTransform> shownBy = {};
   BvhCache bvhCache = {};                       // where trees of large scenes are kept on disk; no folder: nowhere
   std::optional<glm::uvec2> rayTreePixel = {};  // whitted: RenderResult::rayTree is wanted
+  bool warnsOfForced = true;                    // that the image is not the scene's
 };
 
 class RenderSession {

@@ -17,10 +17,12 @@ struct Analysis {
   using MaterialTest = std::function<bool(const Material&)>;
 
   const Material& materialOf(const SurfaceUse& use) const;
-  // First use whose material passes; null when none does.
+  // First use in the picture whose material passes, one in view before others; null when none does.
   const SurfaceUse* firstUse(const MaterialTest& test) const;
-  // "material 'glass' on mesh 'ball'"
-  std::string describe(const SurfaceUse& use) const;
+  // "material 'glass' refracts (transmission 1, ior 1.5) on mesh 'ball', in view"
+  std::string describe(const SurfaceUse& use, const std::string& what) const;
+  // What is not called for: nobody would, or only what no ray meets.
+  std::string nobody(const MaterialTest& test, const std::string& what) const;
   void addByMaterial(const MaterialRule& rule);
 
   const Scene& scene;
@@ -28,6 +30,7 @@ struct Analysis {
   bool traced;
   std::vector<SurfaceUse> uses;
   PlanDraft draft;
+  std::vector<LightVerdict> lightShadows;
 };
 
 std::string quoted(const std::string& kind, const std::string& name, std::size_t index);

@@ -6,6 +6,9 @@
 #include <algorithm>
 
 #include "effects/analysis.h"
+#include "effects/details.h"
+#include "effects/forced.h"
+#include "effects/ray_depth.h"
 #include "structs.h"
 
 namespace crosslight {
@@ -32,19 +35,31 @@ const Material& Analysis::materialOf(const SurfaceUse& use) const {
 }
 
 const SurfaceUse* Analysis::firstUse(const MaterialTest& test) const {
-  const auto found =
-      std::find_if(uses.begin(), uses.end(), [&](const SurfaceUse& use) { return test(materialOf(use)); });
-  return found == uses.end() ? nullptr : &*found;
+  const SurfaceUse* first = nullptr;
+  for (const SurfaceUse& use : uses) {
+    if (!use.met || !test(materialOf(use))) continue;
+    if (use.inView) return &use;
+    if (first == nullptr) first = &use;
+  }
+  return first;
 }
 
-std::string Analysis::describe(const SurfaceUse& use) const {
-  return quoted("material", materialOf(use).name, static_cast<std::size_t>(use.material));
+std::string Analysis::describe(const SurfaceUse& use, const std::string& what) const {
+  return fmt::format("{} {} {}, {}", quoted("material", materialOf(use).name, static_cast<std::size_t>(use.material)),
+                     what, placeOf(scene, use), use.why);
+}
+
+std::string Analysis::nobody(const MaterialTest& test, const std::string& what) const {
+  const auto unmet = std::find_if(uses.begin(), uses.end(), [&](const SurfaceUse& u) { return test(materialOf(u)); });
+  return unmet == uses.end() ? "no material in use " + what : describe(*unmet, what) + " of all rays";
 }
 
 void Analysis::addByMaterial(const MaterialRule& rule) {
   const SurfaceUse* who = firstUse(rule.test);
-  draft.add(rule.effect, rule.name, who != nullptr,
-            who == nullptr ? std::string("no material in use ") + rule.what : describe(*who) + " " + rule.what);
+  if (who == nullptr) return draft.add(rule.effect, rule.name, false, nobody(rule.test, rule.what));
+  const std::string details = detailsOf(rule.effect, materialOf(*who));
+  const std::string what = details.empty() ? std::string(rule.what) : fmt::format("{} ({})", rule.what, details);
+  draft.add(rule.effect, rule.name, true, describe(*who, what));
 }
 
 bool rasterSendsRays(const Plan& plan, const RenderSettings& settings) {
@@ -63,7 +78,11 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings) {
   judgeAir(analysis);
   promote(analysis);
   Plan plan = analysis.draft.take();
-  plan.maxDepth = settings.maxDepth;
+  const bool forced = settings.allEffects || forcedState(settings, "shadows") == true;
+  if (plan.has(Effect::shadows) && !forced) plan.lightShadows = std::move(analysis.lightShadows);
+  const RayDepth depth = usableDepth(scene, settings, analysis.uses);
+  plan.maxDepth = settings.allEffects ? settings.maxDepth : depth.most;
+  plan.depthReason = depth.reason;
   return plan;
 }
 

@@ -36,7 +36,7 @@ struct Plan {
   std::uint32_t shapes = 0;
   std::uint64_t effects = 0;
   std::vector<EffectVerdict> verdicts;
-  std::vector<LightVerdict> lightShadows;  // per light of the scene; empty: shadows are off
+  std::vector<LightVerdict> lightShadows;  // per light of the scene; empty: no shadows, or of all lights
   std::uint32_t maxDepth = 0;              // of rays: what was asked for, or as much of it as the scene can use
   std::string depthReason;
   double bound = 0.0;  // sum of the bounds of what was left out by --effects within=E

@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "effects/forced.h"
 #include "effects/material_traits.h"
+#include "effects/uses.h"
 
 namespace crosslight {
 
@@ -46,16 +47,14 @@ Signature signatureOf(const Material& m, bool shape, const Plan& plan) {
   return {shape, isLit(m), isLit(m) || hasAmbient, 1u << static_cast<std::uint32_t>(m.model), effects};
 }
 
-// The drawn surfaces: (material, shape kinds as bits; 0 for meshes).
-std::map<std::pair<int, bool>, std::uint32_t> surfacesOf(const Scene& scene) {
+// The surfaces that rays meet: (material, shape kinds as bits; 0 for meshes).
+std::map<std::pair<int, bool>, std::uint32_t> surfacesOf(const Scene& scene, const RenderSettings& settings) {
   std::map<std::pair<int, bool>, std::uint32_t> surfaces;
-  for (const MeshInstance& instance : scene.instances) {
-    if (instance.replacedByShape) continue;
-    for (const Primitive& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
-      surfaces[{p.material, false}] = 0;
+  for (const SurfaceUse& use : usesOf(scene, settings)) {
+    if (!use.met) continue;
+    surfaces[{use.material, use.shape}] |=
+        use.shape ? 1u << static_cast<std::uint32_t>(scene.shapes[use.index].kind) : 0u;
   }
-  for (const ShapeInstance& shape : scene.shapes)
-    surfaces[{shape.material, true}] |= 1u << static_cast<std::uint32_t>(shape.kind);
   return surfaces;
 }
 
@@ -96,7 +95,7 @@ HitClasses classifyHits(const Scene& scene, const Plan& plan, const RenderSettin
   HitClasses result;
   result.ofMaterial.assign(scene.materials.size(), glm::uvec4(shared::kHitClasses));
   std::map<Signature, std::uint32_t> classes;
-  for (const auto& [surface, kinds] : surfacesOf(scene)) {
+  for (const auto& [surface, kinds] : surfacesOf(scene, settings)) {
     const auto& [material, shape] = surface;
     const auto index = static_cast<std::size_t>(material);
     const Signature s = signatureOf(scene.materials[index], shape, plan);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "effects/analysis.h"
+#include "effects/shadow_reach.h"
 
 namespace crosslight {
 namespace {
@@ -31,8 +32,14 @@ void shadows(Analysis& a) {
     return add(false, "raster shows no shadows; --set raster-shadows=rays or maps does");
   const bool around = a.traced && a.scene.atmosphere.environment.present();
   const bool lit = !a.scene.lights.empty() || around;
-  add(lit, lit ? fmt::format("{} lights {}cast shadows", a.scene.lights.size(), around ? "and the environment " : "")
-               : "the scene has no light");
+  if (!lit) return add(false, "the scene has no light");
+  a.lightShadows = shadowsOfLights(a.scene, s, a.uses);
+  const auto first =
+      std::find_if(a.lightShadows.begin(), a.lightShadows.end(), [](const auto& l) { return l.shadows; });
+  if (first != a.lightShadows.end()) return add(true, first->reason);
+  if (around) return add(true, "the environment casts shadows");
+  add(false, a.lightShadows.size() == 1 ? a.lightShadows.front().reason
+                                        : "no caster between any light and any surface that it lights");
 }
 
 void softShadows(Analysis& a) {
@@ -41,12 +48,14 @@ void softShadows(Analysis& a) {
   const auto found = std::find_if(a.scene.lights.begin(), a.scene.lights.end(), isArea);
   const bool area = found != a.scene.lights.end();
   const bool around = a.scene.atmosphere.environment.present();
-  const bool on = a.traced && s.lightSamples > 0 && (area || around);
+  const bool cast = a.draft.has(Effect::shadows);
+  const bool on = a.traced && cast && s.lightSamples > 0 && (area || around);
   const auto index = static_cast<std::size_t>(found - a.scene.lights.begin());
   const std::string who =
       area ? quoted("light", found->name, index) + " has an area" : "the environment shines from all around";
   a.draft.add(Effect::softShadows, "softShadows", on,
               !a.traced          ? "raster methods cast shadows from a light's middle"
+              : !cast            ? "no shadows are looked for"
               : !area && !around ? "no light has an area, and there is no environment"
               : !s.lightSamples  ? "switched off: lights with an area cast shadows from their middle"
                                  : fmt::format("{}, {} rays to it", who, s.lightSamples));

@@ -10,9 +10,10 @@ namespace {
 
 void models(Analysis& a) {
   const auto add = [&](std::uint32_t value, const char* name, IlluminationModel model) {
-    const SurfaceUse* who = a.firstUse([model](const Material& m) { return m.model == model; });
+    const auto has = [model](const Material& m) { return m.model == model; };
+    const SurfaceUse* who = a.firstUse(has);
     a.draft.addListed(&Plan::models, value, name, who != nullptr,
-                      who == nullptr ? "nothing in the scene uses it" : "used by " + a.describe(*who));
+                      who == nullptr ? a.nobody(has, "has this model") : a.describe(*who, "has this model"));
   };
 #define CL_ROW(value, name, ...) add(value, #name, IlluminationModel::name);
   CL_ILLUMINATION_MODELS(CL_ROW)
@@ -69,23 +70,24 @@ void reflectance(Analysis& a) {
   a.draft.add(Effect::exactFresnel, "exactFresnel", exact && who != nullptr,
               who == nullptr
                   ? "no material in use reflects by Fresnel's equations"
-                  : (exact ? a.describe(*who) + " reflects by Fresnel's equations" : "Schlick's fit is wanted"));
+                  : (exact ? a.describe(*who, "reflects by Fresnel's equations") : "Schlick's fit is wanted"));
   const SurfaceUse* rough = a.firstUse([](const Material& m) { return m.model == IlluminationModel::cookTorrance; });
   const bool compensates = s.energyCompensation && rough != nullptr;
   a.draft.add(Effect::energyCompensation, "energyCompensation", compensates,
-              compensates ? "asked for, and " + a.describe(*rough) + " has microfacets"
+              compensates ? "asked for, and " + a.describe(*rough, "has microfacets")
                           : (s.energyCompensation ? "no material in use has glTF's microfacets" : "switched off"));
 }
 
 void vertexColors(Analysis& a) {
-  std::string who;
-  for (const Mesh& mesh : a.scene.meshes) {
-    for (const Primitive& p : mesh.primitives) {
-      if (who.empty() && !p.colors.empty()) who = mesh.name.empty() ? "a mesh" : "mesh '" + mesh.name + "'";
-    }
-  }
-  a.draft.add(Effect::vertexColors, "vertexColors", !who.empty(),
-              who.empty() ? "no mesh has vertex colors" : who + " has vertex colors");
+  const auto colored = [&](const SurfaceUse& use) {
+    if (use.shape || !use.met) return false;
+    const auto mesh = static_cast<std::size_t>(a.scene.instances[use.index].mesh);
+    return !a.scene.meshes[mesh].primitives[use.primitive].colors.empty();
+  };
+  const auto who = std::find_if(a.uses.begin(), a.uses.end(), colored);
+  a.draft.add(Effect::vertexColors, "vertexColors", who != a.uses.end(),
+              who == a.uses.end() ? "no mesh that is met has vertex colors"
+                                  : a.describe(*who, "is multiplied by vertex colors"));
 }
 
 void sides(Analysis& a) {

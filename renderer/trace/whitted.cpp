@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 #include "base/error.h"
@@ -35,6 +36,7 @@ class Whitted final : public Technique {
         branches_(crosslight::branches(plan)),
         nestedMedia_(plan.has(Effect::nestedMedia)),
         coloredShadows_(plan.has(Effect::coloredShadows)),
+        lightShadows_(plan.lightShadows),
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
         classes_(kernels_->classes().classes),
@@ -249,8 +251,25 @@ class Whitted final : public Technique {
     commands_.barrier();
   }
 
+  bool castsShadows(std::uint32_t light) const { return lightShadows_.empty() || lightShadows_[light].shadows; }
+
+  // Of lights that nothing can stop: no rays, all of their light arrives.
+  void fillUnshadowed(const TracePush& push) {
+    if (choice_.shadow.empty()) return;
+    const std::uint32_t planes = push.lightCount + (scene_.scene().atmosphere.environment.present() ? 1 : 0);
+    const std::uint64_t planeBytes = std::uint64_t{push.nodeCount} * sizeof(float);
+    for (std::uint32_t light = 0; light < push.lightCount; ++light) {
+      if (castsShadows(push.firstLight + light)) continue;
+      for (std::uint32_t channel = 0; channel < shadowChannels(); ++channel)
+        commands_.fill(store_.visibility, (channel * planes + light) * planeBytes, planeBytes,
+                       std::bit_cast<std::uint32_t>(1.0f));
+    }
+    commands_.barrier();
+  }
+
   // For one batch of lights: which of them reach the hits, and what the hits look like then.
   void shadeLevel(TracePush push, std::uint32_t variant) {
+    fillUnshadowed(push);
     if (classes_.empty()) {
       traceShadows(push, 0);
       traceEnvironment(push, 0);
@@ -268,6 +287,7 @@ class Whitted final : public Technique {
 
   void traceShadows(TracePush push, std::uint32_t variant) {
     for (push.lightInBatch = 0; push.lightInBatch < push.lightCount; ++push.lightInBatch) {
+      if (!castsShadows(push.firstLight + push.lightInBatch)) continue;
       const Light& light = scene_.scene().lights[push.firstLight + push.lightInBatch];
       for (push.shadowChannel = 0; push.shadowChannel < shadowChannels(); ++push.shadowChannel) {
         if (isArea(light) && !choice_.areaShadow.empty())
@@ -320,6 +340,7 @@ class Whitted final : public Technique {
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
   bool branches_, nestedMedia_, coloredShadows_;
+  std::vector<LightVerdict> lightShadows_;
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;
   const std::vector<HitClass>& classes_;
