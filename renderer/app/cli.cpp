@@ -27,6 +27,7 @@ int runCommandLine(int argc, char** argv) {
     installInterruptHandler();
     CommandLine line;
     addRenderCommand(line);
+    addExplainCommand(line);
     addInfoCommand(line);
     addDevicesCommand(line);
     addMergeCommand(line);

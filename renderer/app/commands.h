@@ -6,6 +6,7 @@ namespace crosslight {
 class CommandLine;
 
 void addRenderCommand(CommandLine& line);
+void addExplainCommand(CommandLine& line);
 void addInfoCommand(CommandLine& line);
 void addDevicesCommand(CommandLine& line);
 void addMergeCommand(CommandLine& line);

@@ -58,40 +58,6 @@ void noteGiven(CLI::Option* option, bool& given) {
   option->each([&given](const std::string&) { given = true; });
 }
 
-void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
-  line.choice(command, "-m,--method", o.method, methodNames(), "How the image is made")->group("Picture");
-  line.text(command, "-r,--resolution", o.resolution, "WxH", "Size in pixels, 1 to 65536 each")->group("Picture");
-  line.text(command, "--camera", o.camera, "NAME|N", "The camera, by name or number; without it the first")
-      ->group("Picture");
-  line.text(command, "--scene", o.sceneName, "NAME|N", "The scene of the file; without it the file's default")
-      ->group("Picture");
-  noteGiven(line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
-                        "Evaluate animations at this time; without it nodes stay in their rest pose")
-                ->default_str("")
-                ->group("Picture"),
-            o.timeGiven);
-  line.text(command, "--animation", o.animation, "NAME|N", "Evaluate this animation only; without it all of the file")
-      ->group("Picture");
-  line.number(command, "--turn", o.turnDegrees, "DEGREES", -kMostDegrees, kMostDegrees,
-              "Turn the camera about the vertical through the scene's middle, counter-clockwise from above")
-      ->group("Picture");
-  line.choice(
-          command, "--lighting", o.lighting, kLightings,
-          "opengl: as the fixed function of OpenGL 1.x, whose parameters the scene may carry: vertex colors clamped "
-          "before interpolation, flat shading from the last vertex, an infinite viewer, fog by depth; --set changes "
-          "single ones of these")
-      ->group("Picture");
-  line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
-            {ValueKind::keyValue, allSetPairs()})
-      ->group("Picture");
-  line.text(command, "--environment", o.environment, "FILE",
-            "Light from all around: an equirectangular .hdr, .exr or .pfm instead of the scene's", ValueKind::file)
-      ->group("Picture");
-  line.declare(command.add_option("--effects", o.effects, effectsExplained()), "auto|all|LIST",
-               {ValueKind::choice, {"auto", "all"}})
-      ->group("Picture");
-}
-
 void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
   line.whole(command, "--spp", o.spp, "N", 1, kMostSamples,
              "Samples per pixel, at the same places for raster and rays; 1 is the pixel's center")
@@ -108,10 +74,7 @@ void addSamplingOptions(CommandLine& line, CLI::App& command, RenderOptions& o) 
   noteGiven(line.choice(command, "--msaa", o.msaa, kMsaaCounts, "Coverage samples per sample of a raster method")
                 ->group("Sampling"),
             o.msaaGiven);
-  noteGiven(line.whole(command, "--max-depth", o.maxDepth, "N", 0, kMostDepth,
-                       "Ray segments after the primary one (whitted); 0 is direct light only")
-                ->group("Sampling"),
-            o.maxDepthGiven);
+  addDepthOption(line, command, o);
   line.whole(command, "--seed", o.seed, "N", 0, std::numeric_limits<std::uint64_t>::max(),
              "Seed of all random numbers; the same seed gives the same bits")
       ->group("Sampling");
@@ -177,6 +140,47 @@ void addManyOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
 
 }  // namespace
 
+void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  line.choice(command, "-m,--method", o.method, methodNames(), "How the image is made")->group("Picture");
+  line.text(command, "-r,--resolution", o.resolution, "WxH", "Size in pixels, 1 to 65536 each")->group("Picture");
+  line.text(command, "--camera", o.camera, "NAME|N", "The camera, by name or number; without it the first")
+      ->group("Picture");
+  line.text(command, "--scene", o.sceneName, "NAME|N", "The scene of the file; without it the file's default")
+      ->group("Picture");
+  noteGiven(line.number(command, "--time", o.timeSeconds, "SECONDS", 0, 1e9,
+                        "Evaluate animations at this time; without it nodes stay in their rest pose")
+                ->default_str("")
+                ->group("Picture"),
+            o.timeGiven);
+  line.text(command, "--animation", o.animation, "NAME|N", "Evaluate this animation only; without it all of the file")
+      ->group("Picture");
+  line.number(command, "--turn", o.turnDegrees, "DEGREES", -kMostDegrees, kMostDegrees,
+              "Turn the camera about the vertical through the scene's middle, counter-clockwise from above")
+      ->group("Picture");
+  line.choice(
+          command, "--lighting", o.lighting, kLightings,
+          "opengl: as the fixed function of OpenGL 1.x, whose parameters the scene may carry: vertex colors clamped "
+          "before interpolation, flat shading from the last vertex, an infinite viewer, fog by depth; --set changes "
+          "single ones of these")
+      ->group("Picture");
+  line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
+            {ValueKind::keyValue, allSetPairs()})
+      ->group("Picture");
+  line.text(command, "--environment", o.environment, "FILE",
+            "Light from all around: an equirectangular .hdr, .exr or .pfm instead of the scene's", ValueKind::file)
+      ->group("Picture");
+  line.declare(command.add_option("--effects", o.effects, effectsExplained()), "auto|all|LIST",
+               {ValueKind::choice, {"auto", "all"}})
+      ->group("Picture");
+}
+
+void addDepthOption(CommandLine& line, CLI::App& command, RenderOptions& o) {
+  noteGiven(line.whole(command, "--max-depth", o.maxDepth, "N", 0, kMostDepth,
+                       "Ray segments after the primary one (whitted); 0 is direct light only")
+                ->group("Sampling"),
+            o.maxDepthGiven);
+}
+
 void addDisplayOptions(CommandLine& line, CLI::App& command, double& exposureStops, std::string& toneMap) {
   line.number(command, "--exposure", exposureStops, "STOPS", -kMostStops, kMostStops, "Multiply the picture by 2^STOPS")
       ->group("Output");
@@ -210,7 +214,6 @@ static void checkAdaptive(const RenderOptions& o) {
 
 RenderSettings checkedSettings(const RenderOptions& o) {
   if (o.scene.empty()) throw UsageError("no scene given: crosslight render SCENE -o OUT.png");
-  if (o.output.empty()) throw UsageError("no output given: add -o OUT.png (or .exr, .hdr, .pfm)");
   RenderSettings settings;
   settings.method = methodOf(o.method);
   const Resolution resolution = resolutionOf(o.resolution);
@@ -244,8 +247,10 @@ RenderSettings checkedSettings(const RenderOptions& o) {
   if (!rays && o.bvhCacheGiven) warnUnheeded("--bvh-cache", o);
   if (!rays && o.instancesGiven) warnUnheeded("--instances", o);
   settings.aovs = aovsOf(o.aovs);
-  const bool layered = isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
-  if (!settings.aovs.empty() && !layered) {
+  const auto isLayered = [&o] {
+    return isPartFile(o.output) || (!isVideo(o.output) && imageFormatOf(o.output) == ImageFormat::exr);
+  };
+  if (!settings.aovs.empty() && !isLayered()) {
     throw UsageError("--aov needs an EXR file, the only format with layers: -o " +
                      std::filesystem::path(o.output).replace_extension(".exr").string());
   }

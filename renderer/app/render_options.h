@@ -68,6 +68,10 @@ struct RenderOptions {
 void addDisplayOptions(CommandLine& line, CLI::App& command, double& exposureStops, std::string& toneMap);
 ToneMap toneMapOf(const std::string& name);
 
+// Method, resolution, camera and all else that says what is drawn; of sampling what the image hangs on.
+void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& options);
+void addDepthOption(CommandLine& line, CLI::App& command, RenderOptions& options);
+
 void addRenderOptions(CommandLine& line, CLI::App& command, RenderOptions& options);
 
 // UsageError on what cannot be meant; a warning on options that the method does not heed. The camera is left at 0: its

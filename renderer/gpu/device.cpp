@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+
 #include <malloc.h>
+#include <utility>
 
 #include <algorithm>
 #include <array>
@@ -146,6 +148,11 @@ const OpenTimes& Device::openTimes() const { return impl_->openTimes; }
 bool Device::validationOn() const { return impl_->validation; }
 void Device::throwOnValidationMessages() const { throwOnMessages(*impl_); }
 void Device::savePipelineCache() { savePipelineCacheOf(*impl_); }
+std::vector<PipelineMaking> Device::takePipelineMakings() {
+  const std::scoped_lock lock(impl_->makings.mutex);
+  return std::exchange(impl_->makings.list, {});
+}
+
 std::uint64_t Device::allocatedBytes() const { return impl_->allocatedBytes; }
 std::uint64_t Device::peakAllocatedBytes() const { return impl_->peakAllocatedBytes; }
 

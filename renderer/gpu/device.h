@@ -51,6 +51,14 @@ struct DeviceOptions {
   bool neverMap = false;         // every upload through a staging copy, as on a device with private memory (for tests)
 };
 
+// A pipeline that was made, not taken from the pool of this process.
+struct PipelineMaking {
+  std::string name;              // of its shaders
+  std::uint64_t bytes = 0;       // of SPIR-V that the driver got, constants put in
+  std::uint64_t wholeBytes = 0;  // as it lies in the program
+  double wallMs = 0;             // until the driver had made it; a software driver goes on compiling at the first use
+};
+
 // What open() cost.
 struct OpenTimes {
   double instanceMs = 0;
@@ -90,8 +98,9 @@ class Device {
   void throwOnValidationMessages() const;
   // Writes the pipeline cache back (atomically, never fails the run). Called by the destructor too.
   void savePipelineCache();
-  std::uint64_t allocatedBytes() const;      // now
-  std::uint64_t peakAllocatedBytes() const;  // most so far
+  std::vector<PipelineMaking> takePipelineMakings();  // since the last time, or open()
+  std::uint64_t allocatedBytes() const;               // now
+  std::uint64_t peakAllocatedBytes() const;           // most so far
 
   DeviceImpl& impl() const { return *impl_; }
 

@@ -45,6 +45,11 @@ class PipelinePool {
   std::list<Parked> parked_;  // the latest first
 };
 
+struct PipelineMakings {
+  std::mutex mutex;
+  std::vector<PipelineMaking> list;
+};
+
 struct DeviceImpl {
   DeviceInfo info;
   OpenTimes openTimes;
@@ -71,6 +76,7 @@ struct DeviceImpl {
   std::mutex queueMutex = {};  // kernels are warmed up from threads of their own
   vk::raii::CommandPool transferPool{nullptr};
   vk::raii::PipelineCache pipelineCache{nullptr};
+  PipelineMakings makings = {};
   PipelinePool pipelines = {};  // dies before the device
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/time.h"
 #include "gpu/impl.h"
 #include "gpu/spirv_sample_inputs.h"
 #include "gpu/spirv_specialize.h"
@@ -33,10 +34,12 @@ struct Specialization {
 };
 
 vk::raii::ShaderModule moduleOf(const DeviceImpl& device, ShaderCode code, const Constants& constants,
-                                bool atSamples = false) {
+                                PipelineMaking& making, bool atSamples = false) {
   CL_CHECK(!code.words.empty());
   std::vector<std::uint32_t> words = specialized(code.words, constants);
   if (atSamples) words = withSampleInputs(words);
+  making.bytes += 4 * words.size();
+  making.wholeBytes += 4 * code.words.size();
   vk::raii::ShaderModule module(device.device, vk::ShaderModuleCreateInfo({}, 4 * words.size(), words.data()));
   nameObject(device, module, std::string(code.name));
   return module;
@@ -160,15 +163,15 @@ void FixedState::describeTargets(const GraphicsState& state) {
   if (state.depthTarget) rendering.setDepthAttachmentFormat(formatOf(ImageFormat::depth32f));
 }
 
-vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& state) {
+vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& state, PipelineMaking& making) {
   const DeviceImpl& device = *impl.device;
   const Specialization specialization(state.constants);
-  const vk::raii::ShaderModule vertex = moduleOf(device, state.vertex, state.constants);
+  const vk::raii::ShaderModule vertex = moduleOf(device, state.vertex, state.constants, making);
   std::vector<vk::PipelineShaderStageCreateInfo> stages{
       stageInfo(vk::ShaderStageFlagBits::eVertex, vertex, specialization)};
   vk::raii::ShaderModule fragment{nullptr};
   if (!state.fragment.words.empty()) {
-    fragment = moduleOf(device, state.fragment, state.constants, state.shadePerSample);
+    fragment = moduleOf(device, state.fragment, state.constants, making, state.shadePerSample);
     stages.push_back(stageInfo(vk::ShaderStageFlagBits::eFragment, fragment, specialization));
   }
   const FixedState fixed(state);
@@ -187,14 +190,34 @@ vk::raii::Pipeline makeGraphics(const PipelineImpl& impl, const GraphicsState& s
   return {device.device, device.pipelineCache, info};
 }
 
-vk::raii::Pipeline makeCompute(const PipelineImpl& impl, ShaderCode code, const Constants& constants) {
+vk::raii::Pipeline makeCompute(const PipelineImpl& impl, ShaderCode code, const Constants& constants,
+                               PipelineMaking& making) {
   const DeviceImpl& device = *impl.device;
   const Specialization specialization(constants);
-  const vk::raii::ShaderModule module = moduleOf(device, code, constants);
+  const vk::raii::ShaderModule module = moduleOf(device, code, constants, making);
   const vk::ComputePipelineCreateInfo info({}, stageInfo(vk::ShaderStageFlagBits::eCompute, module, specialization),
                                            *impl.layout->pipeline);
   return {device.device, device.pipelineCache, info};
 }
+
+// Adds what was made, and how long it took, to the device's list.
+class Making {
+ public:
+  Making(DeviceImpl& device, std::string name) : device_(device) { record_.name = std::move(name); }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+  ~Making() {
+    record_.wallMs = watch_.elapsedMs();
+    const std::scoped_lock lock(device_.makings.mutex);
+    device_.makings.list.push_back(std::move(record_));
+  }
+  PipelineMaking& record() { return record_; }
+
+ private:
+  DeviceImpl& device_;
+  const Stopwatch watch_;
+  PipelineMaking record_;
+};
 
 // Everything that a pipeline is made of, in words: equal keys, equal pipelines. Names stand for code that is compiled
 // in.
@@ -230,7 +253,8 @@ ComputePipeline::ComputePipeline(const Device& device, const BindingLayout& layo
   impl_->pipeline = impl_->device->pipelines.take(impl_->key);
   if (*impl_->pipeline) return;
   guarded(fmt::format("making the pipeline of {}", code.name), [&] {
-    impl_->pipeline = makeCompute(*impl_, code, constants);
+    Making making(*impl_->device, std::string(code.name));
+    impl_->pipeline = makeCompute(*impl_, code, constants, making.record());
     nameObject(*impl_->device, impl_->pipeline, std::string(code.name));
   });
   throwOnMessages(*impl_->device);
@@ -248,7 +272,8 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const BindingLayout& la
   impl_->pipeline = impl_->device->pipelines.take(impl_->key);
   if (*impl_->pipeline) return;
   guarded("making the pipeline of " + name, [&] {
-    impl_->pipeline = makeGraphics(*impl_, state);
+    Making making(*impl_->device, name);
+    impl_->pipeline = makeGraphics(*impl_, state, making.record());
     nameObject(*impl_->device, impl_->pipeline, name);
   });
   throwOnMessages(*impl_->device);
