@@ -13,6 +13,13 @@ float faceScale(LightRecord light, vec3 to) {
   return maxComponent(greater(greater(abs(to), edges), vec3(light.areaRadius)));
 }
 
+// A point of the light's own plane lies off it by rounding: its position was interpolated between corners (raster) or
+// found along a ray, and the corners were placed in the world; sixteen roundings of coordinates as large as any of these.
+float planeError(LightRecord light, vec3 renderPos) {
+  vec3 largest = greater(abs(renderPos), abs(light.renderPosition) + 2.0 * greater(abs(light.areaU), abs(light.areaV)));
+  return gammaBound(16.0) * maxComponent(largest);
+}
+
 AreaFace faceOf(LightRecord light, vec3 renderPos) {
   vec3 to = light.renderPosition - renderPos;
   float scale = faceScale(light, to);
@@ -22,7 +29,8 @@ AreaFace faceOf(LightRecord light, vec3 renderPos) {
   float radius = light.areaRadius / scale;
   bool twoSided = (light.flags & kLightTwoSided) != 0u;
   bool triangle = light.type == kLightType_areaTriangle;
-  AreaFace f = polygonFace(triangle ? to : to - u - v, triangle ? u : 2.0 * u, triangle ? v : 2.0 * v, triangle, twoSided);
+  AreaFace f = polygonFace(triangle ? to : to - u - v, triangle ? u : 2.0 * u, triangle ? v : 2.0 * v, triangle, twoSided,
+                           planeError(light, renderPos) / scale);
   float side = dot(light.direction, to);
   if (light.type == kLightType_areaDisk)
     f = circleFace(to, light.direction, radius, side < 0.0 || (twoSided && side > 0.0));

@@ -46,13 +46,14 @@ AreaFace sphereFace(vec3 center, float radius) {
   return circleFace(towards * cosine2, towards, sine * sqrt(greater(cosine2, 0.0)), cosine2 > 0.0);
 }
 
-// u x v points against the light that is emitted.
-AreaFace polygonFace(vec3 corner, vec3 u, vec3 v, bool triangle, bool twoSided) {
+// u x v points against the light that is emitted. Nearer to its plane than `inPlane` per axis the point is on the light
+// itself, or beside it: rounding must not decide whether a surface that glows lights itself.
+AreaFace polygonFace(vec3 corner, vec3 u, vec3 v, bool triangle, bool twoSided, float inPlane) {
   vec3 n = cross(u, v);
   float side = dot(n, corner);
   bool behind = side < 0.0;
   AreaFace f;
-  f.shines = side > 0.0 || (twoSided && behind);
+  f.shines = (twoSided ? abs(side) : side) > inPlane * dot(abs(n), vec3(1.0));
   f.circle = false;
   f.triangle = triangle;
   f.corner = corner;
