@@ -1,6 +1,8 @@
 #include "app/effects_option.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <vector>
 
 #include "app/suggest.h"
@@ -18,6 +20,15 @@ std::vector<std::string> partsOf(const std::string& text) {
     begin = end + 1;
   }
   return parts;
+}
+
+double withinOf(const std::string& word) {
+  const std::string digits = word.substr(word.find('=') + 1);
+  double bound = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bound);
+  if (error != std::errc{} || stop != digits.data() + digits.size() || !std::isfinite(bound) || !(bound > 0))
+    throw UsageError("--effects: '" + word + "' needs a radiance above 0, as in within=0.001");
+  return bound;
 }
 
 void force(const std::string& word, RenderSettings& settings) {
@@ -41,12 +52,15 @@ void force(const std::string& word, RenderSettings& settings) {
 void applyEffects(const std::string& text, RenderSettings& settings) {
   settings.allEffects = false;
   settings.forcedEffects.clear();
+  settings.effectsWithin = 0;
   const std::vector<std::string> parts = partsOf(text);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const bool isBase = parts[i] == "auto" || parts[i] == "all";
     if (isBase && i > 0) throw UsageError("--effects: '" + parts[i] + "' comes first: " + parts[i] + ",-fog");
     if (isBase) {
       settings.allEffects = parts[i] == "all";
+    } else if (parts[i].rfind("within=", 0) == 0) {
+      settings.effectsWithin = withinOf(parts[i]);
     } else {
       force(parts[i], settings);
     }
@@ -56,7 +70,8 @@ void applyEffects(const std::string& text, RenderSettings& settings) {
 std::string effectsExplained() {
   return "Compile and run what the scene calls for, or everything: the image is the same. A list forces single ones, "
          "as in -fog,+shadows: + compiles one in, which changes no bit either; - leaves one out though it is called "
-         "for, and then the image is another. The names are those of 'crosslight explain'";
+         "for, and then the image is another; within=E cuts reflections that are proven to bring a pixel at most the "
+         "linear radiance E. The names are those of 'crosslight explain'";
 }
 
 std::string wordOf(const ForcedEffect& forced) { return (forced.on ? "+" : "-") + forced.name; }

@@ -6,6 +6,7 @@
 #include "app/scene_summary.h"
 #include "app/suggest.h"
 #include "app/version.h"
+#include "effects/effects.h"
 
 namespace crosslight {
 namespace {
@@ -64,6 +65,8 @@ Json renderRecord(const RecordHead& head, const Scene& scene, const RenderSettin
   record["plan"]["lightShadows"] = Json::array();
   for (const EffectRecord& light : report.lightShadows)
     record["plan"]["lightShadows"].push_back({{"light", light.name}, {"on", light.on}, {"reason", light.reason}});
+  record["plan"]["within"] = settings.effectsWithin;
+  record["plan"]["bound"] = makePlan(scene, settings).bound;
   record["plan"]["rayDepth"] = {{"most", report.rayDepth}, {"reason", report.depthReason}};
   record["gpu"] = Json::array();
   for (const auto& [pass, gpuMs] : report.gpuMs) record["gpu"].push_back({{"pass", pass}, {"gpuMs", gpuMs}});

@@ -336,6 +336,7 @@ RenderResult RenderSession::render(const RenderRequest& asked, const ProgressFun
   checkLists(impl_->device.info(), request, sharing.shares ? sharing.trianglesSaved : 0);
   checkMemory(need, memoryLimitsOf(impl_->device.info()), settings);
   warnOfApproximations(scene, plan, settings);
+  if (plan.bound > 0) logInfo(fmt::format("ray depth {}: {}", plan.maxDepth, plan.depthReason));
   if (asked.warnsOfForced) warnOfWhatIsLeftOut(plan);
   const std::shared_ptr<KernelPipelines> kernels = impl_->kernelsFor(request, plan, sharing, report);
   PlacedScene& placed = impl_->place(request, plan, sharing, report, phases);

@@ -9,6 +9,7 @@
 #include "effects/details.h"
 #include "effects/forced.h"
 #include "effects/ray_depth.h"
+#include "effects/within.h"
 #include "structs.h"
 
 namespace crosslight {
@@ -83,6 +84,7 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings) {
   const RayDepth depth = usableDepth(scene, settings, analysis.uses);
   plan.maxDepth = settings.allEffects ? settings.maxDepth : depth.most;
   plan.depthReason = depth.reason;
+  leaveOutWithin(analysis, plan);
   return plan;
 }
 

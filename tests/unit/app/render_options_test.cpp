@@ -152,7 +152,10 @@ TEST(EffectsOption, listForcesSingleEffectsOnTopOfABase) {
   applyEffects("all,-fog,+sphere", settings);
   EXPECT_TRUE(settings.allEffects);
   EXPECT_THAT(settings.forcedEffects, ElementsAre(ForcedEffect{"fog", false}, ForcedEffect{"sphere", true}));
+  applyEffects("within=0.25,-phong", settings);
+  EXPECT_EQ(settings.effectsWithin, 0.25);
   applyEffects("-phong", settings);
+  EXPECT_EQ(settings.effectsWithin, 0);
   EXPECT_FALSE(settings.allEffects);
   EXPECT_THAT(settings.forcedEffects, ElementsAre(ForcedEffect{"phong", false}));
 }
@@ -169,6 +172,8 @@ TEST(EffectsOption, whatCannotBeMeantIsRefusedWithTheRemedy) {
   EXPECT_THAT(refusal("fog"), HasSubstr("+fog compiles it in, -fog leaves it out"));
   EXPECT_THAT(refusal("+fog,-fog"), HasSubstr("exclude each other"));
   EXPECT_THAT(refusal("-fog,all"), HasSubstr("comes first"));
+  for (const std::string bad : {"within=", "within=0", "within=-1", "within=inf", "within=nan", "within=1x"})
+    EXPECT_THAT(refusal(bad), HasSubstr("needs a radiance above 0")) << bad;
   for (const std::string bad : {"", ",", "-", "+", "-fog,", "--fog", "-fog +shadows"})
     EXPECT_THAT(refusal(bad), HasSubstr("unknown effect")) << bad;
 }
