@@ -40,7 +40,7 @@ class Measuring {
         request_(request),
         options_(options),
         say_(say),
-        total_(pairs * 2 * (options.rounds + 1)) {}
+        total_(pairs * 2 * (options.rounds + 1) + 4) {}
 
   // The first frames warm up: they compile.
   Pair alternate(const RenderRequest& a, const RenderRequest& b) {
@@ -61,7 +61,7 @@ class Measuring {
     PlanCost cost;
     cost.firstFrameMs = watch.elapsedMs();
     cost.pipelines = device_.takePipelineMakings();
-    cost.passes = first.report.gpuMs;
+    cost.passes = draw(request).report.gpuMs;  // of a frame that compiles nothing
     cost.rays = first.report.rays;
     cost.counters = first.report.counters;
     return cost;
@@ -120,7 +120,7 @@ Explanation explain(gpu::Device* device, const RenderRequest& request, const Exp
     return !isForced(request.settings, effect.verdict.name) && (effect.verdict.on || options.measureOff);
   };
   const auto pairs = static_cast<std::uint64_t>(std::count_if(e.effects.begin(), e.effects.end(), counts));
-  Measuring measuring(*device, request, options, say, pairs + 2);
+  Measuring measuring(*device, request, options, say, pairs + 1);
   measuring.comparePlans(e);
   for (ExplainedEffect& effect : e.effects) {
     if (counts(effect)) effect.measured = measuring.measure(effect.verdict);

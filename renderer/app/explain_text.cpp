@@ -43,7 +43,7 @@ std::string errorText(const Measured& m) {
 
 std::string effectHead(const ExplainedEffect& e, bool measured) {
   if (!measured) return fmt::format("  {:<26}", e.verdict.name);
-  return fmt::format("  {:<26}{:<20} {:<18} ", e.verdict.name, e.measured ? ratioText(e.measured->ratio) : "-",
+  return fmt::format("  {:<26}{:<22} {:<18} ", e.verdict.name, e.measured ? ratioText(e.measured->ratio) : "-",
                      e.measured ? errorText(*e.measured) : "-");
 }
 
@@ -119,7 +119,7 @@ std::string explanationTable(const Explanation& e, const ExplainOptions& options
   const bool measured = e.specialized.has_value();
   std::string table;
   if (measured) {
-    table += fmt::format("  {:<26}{:<20} {:<18} {}\n", "called for", "costs (95 %)", "changes, max / RMS", "because");
+    table += fmt::format("  {:<26}{:<22} {:<18} {}\n", "called for", "costs (95 %)", "changes, max / RMS", "because");
   } else {
     table += fmt::format("  {:<26}{}\n", "called for", "because");
   }
