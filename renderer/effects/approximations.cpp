@@ -59,6 +59,14 @@ std::vector<std::string> approximationsOf(const Scene& scene, const RenderSettin
           "material '{}': the environment is mirrored as by an isotropic surface of the mean roughness", m->name));
     }
   }
+  if (const Material* m = first(scene, scatters)) {
+    all.push_back(
+        s.method == Method::whitted
+            ? fmt::format("material '{}': light within the body is scattered once on its way, not many times", m->name)
+            : fmt::format("material '{}': raster methods show none of the light that a body scatters within; "
+                          "whitted does",
+                          m->name));
+  }
   if (s.method != Method::whitted) return all;
   for (const ShapeInstance& shape : scene.shapes) {
     const Material& m = scene.materials[static_cast<std::size_t>(shape.material)];

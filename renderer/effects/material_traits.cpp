@@ -60,7 +60,8 @@ constexpr std::array kSurfaceRules{
                  [](const Material& m) { return isLayered(m) && m.layers.diffuseRoughness > 0; }},
     MaterialRule{Effect::angularSpecular, "angularSpecular", "has a highlight that grows with the angle",
                  hasAngularSpecular}};
-constexpr std::array kRayRules{MaterialRule{Effect::reflection, "reflection", "reflects like a mirror", isMirror},
+constexpr std::array kRayRules{MaterialRule{Effect::volumeScatter, "volumeScatter", "scatters light within", scatters},
+                               MaterialRule{Effect::reflection, "reflection", "reflects like a mirror", isMirror},
                                MaterialRule{Effect::refraction, "refraction", "refracts", refracts},
                                MaterialRule{Effect::absorption, "absorption", "absorbs light on its way", absorbs}};
 
@@ -102,6 +103,23 @@ bool isTransparent(const Material& m) { return m.alphaMode == AlphaMode::blend |
 bool absorbs(const Material& m) {
   return refracts(m) && m.hasVolume && std::isfinite(m.attenuationDistance) &&
          (m.attenuationColor.x < 1 || m.attenuationColor.y < 1 || m.attenuationColor.z < 1);
+}
+
+bool scatters(const Material& m) { return absorbs(m) && anyPositive(m.multiscatterColor); }
+
+bool anyScatters(const Scene& scene) { return std::any_of(scene.materials.begin(), scene.materials.end(), scatters); }
+
+// Kulla, Conty 2017, "Revisiting Physically Based Shading at Imageworks", "Volumetrics": the albedo of a half space of
+// isotropic scatterers turned round, and similarity for others.
+glm::vec3 scatteringAlbedo(const Material& m) {
+  glm::vec3 albedo(0.0f);
+  if (!scatters(m)) return albedo;
+  for (glm::length_t c = 0; c < 3; ++c) {
+    const double seen = m.multiscatterColor[c], g = m.scatterAnisotropy;
+    const double s = 4.09712 + 4.20863 * seen - std::sqrt(9.59217 + 41.6808 * seen + 17.7126 * seen * seen);
+    albedo[c] = static_cast<float>(std::clamp((1.0 - s * s) / (1.0 - g * s * s), 0.0, 1.0));
+  }
+  return albedo;
 }
 
 bool isLit(const Material& m) {

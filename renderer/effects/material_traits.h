@@ -18,6 +18,12 @@ bool refracts(const Material& material);
 // Something shows through: blending, kt or transmission.
 bool isTransparent(const Material& material);
 bool absorbs(const Material& material);
+// Light is scattered on its way through the body.
+bool scatters(const Material& material);
+bool anyScatters(const Scene& scene);
+// Share of the extinction that is scattering, as single scattering needs it, of `multiscatterColor`; 0: it does not
+// scatter.
+glm::vec3 scatteringAlbedo(const Material& material);
 // A classic highlight whose coefficient follows the angle of incidence.
 bool hasAngularSpecular(const Material& material);
 // The clear coat is so smooth that it sends a mirrored ray.

@@ -169,7 +169,7 @@ class MaterialBuilder {
       out.bumpFactor = static_cast<float>(numberOr(*bump, "bumpFactor", 1.0));
     }
     if (const auto volume = at.extension("KHR_materials_volume")) readVolume(*volume, out);
-    if (const auto scatter = at.extension("KHR_materials_volume_scatter")) checkVolumeScatter(*scatter);
+    if (const auto scatter = at.extension("KHR_materials_volume_scatter")) readVolumeScatter(*scatter, out);
     if (const auto dispersion = at.extension("KHR_materials_dispersion")) {
       out.dispersion = static_cast<float>(numberOr(*dispersion, "dispersion", 0.0, Range::atLeast(0.0)));
     }
@@ -204,12 +204,9 @@ class MaterialBuilder {
 
   // A draft. What the medium takes away is KHR_materials_volume's attenuation already, which counts; what it scatters
   // towards the viewer would have to come in through the surface that bends it.
-  void checkVolumeScatter(const JsonAt& scatter) const {
-    vec3Or(scatter, "multiscatterColor", glm::vec3(0.0f), kUnit);
-    numberOr(scatter, "scatterAnisotropy", 0.0, Range::between(-1.0, 1.0));
-    source_.document.notes.add(scatter,
-                               "is not simulated: the body absorbs light as KHR_materials_volume says, and "
-                               "scatters none; for smoke see CROSSLIGHT_scene_atmosphere");
+  static void readVolumeScatter(const JsonAt& scatter, Material& out) {
+    out.multiscatterColor = vec3Or(scatter, "multiscatterColor", glm::vec3(0.0f), kUnit);
+    out.scatterAnisotropy = static_cast<float>(numberOr(scatter, "scatterAnisotropy", 0.0, Range::between(-1.0, 1.0)));
   }
 
   void ignoreTexture(const JsonAt& extension, const char* key) const {

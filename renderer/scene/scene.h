@@ -134,6 +134,8 @@ struct Material {
   bool hasVolume = false;  // KHR_materials_volume: the surface bounds a body; else it is thin
   glm::vec3 attenuationColor{1.0f};
   float attenuationDistance = std::numeric_limits<float>::infinity();
+  glm::vec3 multiscatterColor{0.0f};  // KHR_materials_volume_scatter: what a thick body of it would reflect
+  float scatterAnisotropy = 0.0f;     // g of Henyey and Greenstein 1941, -1..1
   TextureUse bumpTexture;          // EXT_materials_bump: height in the red channel
   float bumpFactor = 1.0f;         // scene units per texel value
   TextureUse displacementTexture;  // CROSSLIGHT_materials_displacement: height in the red channel

@@ -118,7 +118,7 @@ KernelChoice chooseKernels(const gpu::DeviceInfo& device, const Plan& plan, cons
     choice.areaShadow = "shadow_area.comp";
     if (plan.has(Effect::environment)) choice.environmentShadow = "shadow_environment.comp";
   }
-  if (plan.has(Effect::smoke)) choice.smoke = "smoke.comp";
+  if (plan.has(Effect::smoke) || plan.has(Effect::volumeScatter)) choice.smoke = "smoke.comp";
   if (branches(plan)) {
     choice.gather = "gather.comp";
     if (triangles && settings.maxDepth > 0) choice.secondary = packets ? "intersect_quad.comp" : "intersect.comp";

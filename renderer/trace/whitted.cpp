@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "effects/material_traits.h"
 #include "trace/level_recorder.h"
 #include "trace/ray_store.h"
 #include "upload/smoke_check.h"
@@ -36,6 +37,8 @@ class Whitted final : public Technique {
         branches_(crosslight::branches(plan)),
         nestedMedia_(plan.has(Effect::nestedMedia)),
         coloredShadows_(plan.has(Effect::coloredShadows)),
+        smoke_(hasSmoke(scene.scene().atmosphere.smoke)),
+        bodiesScatter_(plan.has(Effect::volumeScatter) && anyScatters(scene.scene())),
         lightShadows_(plan.lightShadows),
         kernels_(std::move(kernels)),
         choice_(forTree(kernels_->choice(), scene)),
@@ -214,7 +217,7 @@ class Whitted final : public Technique {
       push.firstLight = first;
       push.lightCount = std::min(store_.batch, lights - first);
       shadeLevel(push, primary && aovs ? kVariantAovs : 0);
-      if (first + store_.batch >= lights) addSmoke(push);
+      if (first + store_.batch >= lights) addSmoke(push, primary);
       if (recorder_ != nullptr) recorder_->record(commands_, push);
     }
     submit(tally);
@@ -222,8 +225,9 @@ class Whitted final : public Technique {
 
   // After all else of a level: what its rays bring is weakened, then light is added. With shadows, one step of one
   // light at a time (shaders/trace/smoke.comp).
-  void addSmoke(TracePush push) {
-    if (choice_.smoke.empty() || !hasSmoke(scene_.scene().atmosphere.smoke)) return;
+  void addSmoke(TracePush push, bool primary) {
+    const bool inBodies = bodiesScatter_ && (!primary || nestedMedia_);  // only then may the camera be in one
+    if (choice_.smoke.empty() || !(smoke_ || inBodies)) return;
     push.lightInBatch = ~0u;
     dispatch({choice_.smoke}, push, "smoke");
     if (choice_.shadow.empty()) return;
@@ -339,7 +343,7 @@ class Whitted final : public Technique {
   GpuScene& scene_;
   const RenderSettings& settings_;
   FilmBuffers& buffers_;
-  bool branches_, nestedMedia_, coloredShadows_;
+  bool branches_, nestedMedia_, coloredShadows_, smoke_, bodiesScatter_;
   std::vector<LightVerdict> lightShadows_;
   std::shared_ptr<KernelPipelines> kernels_;
   KernelChoice choice_;

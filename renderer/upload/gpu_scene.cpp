@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "bindings.h"
+#include "effects/material_traits.h"
 #include "effects/media.h"
 #include "upload/albedo_tables.h"
 #include "upload/environment_tables.h"
@@ -87,7 +88,8 @@ GpuScene::GpuScene(const gpu::Device& device, const Scene& scene, const RenderSe
                                    gpu::useUniformTexel);
   }
   const Environment& shines = scene.atmosphere.environment;
-  if (shines.present() && hasSmoke(scene.atmosphere.smoke)) environmentMean_ = meanRadiance(*shines.map);
+  const bool scattered = hasSmoke(scene.atmosphere.smoke) || anyScatters(scene);
+  if (shines.present() && scattered) environmentMean_ = meanRadiance(*shines.map);
   smokeGrid_ =
       gpu::Buffer::of(device, "densities of smoke", densityTexels(scene.atmosphere.smoke), gpu::useUniformTexel);
   albedoTables_ = gpu::Buffer::of(device, "albedo tables",

@@ -49,7 +49,7 @@ class GpuScene {
   FlatScene flat_;
   std::optional<RenderSettings> placedFor_;
   glm::uvec4 cameraMedia_{0};
-  glm::vec3 environmentMean_{0.0f};  // radiance; smoke only
+  glm::vec3 environmentMean_{0.0f};  // radiance; for what scatters
   std::uint32_t cameraMedium_ = shared::kNoId, optics_ = 0;
   std::uint32_t shapeRoot_ = 0, wideDepth_ = 0, quadWaiting_ = 0;
   gpu::Buffer frame_, materials_, lights_, draws_, positions_, attributes_, indices_, shapes_, shapeBoxes_, texels_,

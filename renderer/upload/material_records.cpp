@@ -116,7 +116,8 @@ class MaterialWriter {
     set(shared::kLayerDiffuseRoughness, l.diffuseRoughnessTexture, false);
     r.bumpTexture = slot(m.bumpTexture, false);
     r.bumpFactor = m.bumpFactor;
-    r.spareTexture = slot({}, false);
+    r.scatterAlbedo = scatteringAlbedo(m);
+    r.scatterAnisotropy = m.scatterAnisotropy;
   }
 
   static std::uint32_t flagsOf(const Material& m) {

@@ -78,6 +78,9 @@ void setEnvironment(const Environment& around, const RenderSettings& settings, s
 // Steps are sampled at another place for every ray only where shadows have edges to hide.
 void setSmoke(const Smoke& smoke, const RenderSettings& settings, bool shadows, const glm::dvec3& origin,
               shared::FrameRecord& f) {
+  // Bodies that scatter are walked through alike.
+  f.smokeSteps = settings.smokeSteps;
+  f.smokeSeed = shadows ? static_cast<std::uint32_t>(settings.seed ^ settings.seed >> 32) | 1u : 0u;
   if (!hasSmoke(smoke)) return;
   f.smokeKind = static_cast<std::uint32_t>(smoke.shape);
   f.smokeCenter = glm::vec3(smoke.center - origin);
@@ -89,8 +92,6 @@ void setSmoke(const Smoke& smoke, const RenderSettings& settings, bool shadows, 
   f.smokeGridX = smoke.grid[0];
   f.smokeGridY = smoke.grid[1];
   f.smokeGridZ = smoke.grid[2];
-  f.smokeSteps = settings.smokeSteps;
-  f.smokeSeed = shadows ? static_cast<std::uint32_t>(settings.seed ^ settings.seed >> 32) | 1u : 0u;
 }
 
 static_assert(static_cast<std::uint32_t>(SmokeShape::none) == shared::kSmokeNone);

@@ -39,16 +39,39 @@ float tintAtTriangle(MaterialRecord m, uint triangle, bool colored, float b1, fl
 // taken away again, whichever of them the tree finds first.
 float crossedDepth_ = 0.0;
 
-bool countsCrossings() { return inColor(); }
+// The same for the length of the way in the body that it begins in, CL_BODY_OF_WAY, where that scatters; shadows in
+// color have it in their depth.
+float crossedLength_ = 0.0;
+#ifdef CL_BODY_OF_WAY
+bool followsBody() { return CL_HAS_TOO(volumeScatter) && CL_BODY_OF_WAY != kNoRayNode; }
+void noteLength(uint material, bool leaves, float length) {
+  if (followsBody() && material == CL_BODY_OF_WAY) crossedLength_ += leaves ? length : -length;
+}
+#else
+bool followsBody() { return false; }
+void noteLength(uint material, bool leaves, float length) {}
+#endif
+
+bool countsCrossings() { return inColor() || followsBody(); }
 
 void noteCrossing(uint drawId, bool leaves, Ray ray, float t) {
-  MaterialRecord m = materialOf(drawOf(drawId).materialId);
+  uint material = drawOf(drawId).materialId;
+  if (!inColor()) {
+    noteLength(material, leaves, t * safeLength(ray.direction));
+    return;
+  }
+  MaterialRecord m = materialOf(material);
   if (!(m.attenuationDistance > 0.0) || (m.flags & kMaterialThin) != 0u) return;
   float perUnit = -log(max(m.attenuationColor[CL_SHADOW_CHANNEL], 1.0 / kLargest)) / m.attenuationDistance;
   float depth = perUnit * t * safeLength(ray.direction);
   crossedDepth_ += leaves ? depth : -depth;
 }
 // Of the crossings since the last time.
+float crossedLength() {
+  float length = greater(crossedLength_, 0.0);
+  crossedLength_ = 0.0;
+  return length;
+}
 float crossedShare() {
   float share = exp(-greater(crossedDepth_, 0.0));
   crossedDepth_ = 0.0;

@@ -1,5 +1,5 @@
-// Smoke: a medium that absorbs light and scatters it once on its way to the viewer. Raster and rays call the same
-// functions; whoever includes this has lights at hand (CL_LIGHT).
+// Smoke, and bodies that scatter: media that absorb light and scatter it once on its way to the viewer. Raster and rays
+// call the same functions; whoever includes this has lights at hand (CL_LIGHT).
 #ifndef CROSSLIGHT_SMOKE_GLSL
 #define CROSSLIGHT_SMOKE_GLSL
 #include "light/light.glsl"
@@ -10,7 +10,20 @@ layout(set = 0, binding = kBindSmokeGrid) uniform samplerBuffer smokeGrid;
 // Beyond this optical depth 1e-7 of the light is left: ways without an end are cut there.
 const float kEndlessDepth = 16.0;
 
-// The part of a way that lies in smoke, along a unit direction.
+// Where the density is 1, per scene unit.
+struct Scatterer {
+  vec3 extinction;
+  vec3 scattering;
+  float anisotropy;  // g of Henyey and Greenstein 1941, -1..1
+  bool even;         // the density is 1 all over
+};
+
+Scatterer theSmoke() {
+  return Scatterer(frame.smokeAbsorption + frame.smokeScattering, frame.smokeScattering, frame.smokeAnisotropy,
+                   frame.smokeGridX == 0u);
+}
+
+// The part of a way that lies in the medium, along a unit direction.
 struct SmokeWay {
   vec3 origin;
   vec3 direction;
@@ -81,8 +94,6 @@ float smokeAmount(SmokeWay way, uint steps) {
   return sum * length / float(steps);
 }
 
-vec3 smokeExtinction() { return frame.smokeAbsorption + frame.smokeScattering; }
-
 // Henyey, Greenstein 1941, "Diffuse radiation in the Galaxy", Eq. 2, over the sphere normalised to 1.
 float scatteredTowards(float g, float cosAngle) {
   float below = max(1.0 + g * g - 2.0 * g * cosAngle, 1e-12);  // (1 - g)^2 > 0 but for rounding
@@ -113,12 +124,15 @@ LightPlace lightPlace(LightRecord light, vec3 p, vec2 u) {
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": fractions of the plastic number.
 vec2 areaPlace(uint step, vec2 start) { return fract(start + float(step) * vec2(0.7548776662466927, 0.5698402909980532)); }
 
-// What a light sends at a point towards the viewer, per unit of scattering; its way leads through smoke too.
-vec3 scatteredLight(vec3 p, vec3 d, LightRecord light, LightPlace from) {
+// What a light sends at a point towards the viewer, per unit of scattering, where `amount`, density times length, lies on
+// its way.
+vec3 scatteredLight(Scatterer medium, vec3 d, LightRecord light, LightPlace from, float amount) {
   if (!(from.share > 0.0)) return vec3(0.0);
-  float amount = smokeAmount(smokeAlong(p, from.wi, from.distance), max(frame.smokeSteps / 2u, 1u));
-  return light.diffuse * (from.share * scatteredTowards(frame.smokeAnisotropy, dot(from.wi, d))) *
-         exp(-smokeExtinction() * amount);
+  return light.diffuse * (from.share * scatteredTowards(medium.anisotropy, dot(from.wi, d))) * exp(-medium.extinction * amount);
+}
+
+float smokeTowards(vec3 p, LightPlace from) {
+  return from.share > 0.0 ? smokeAmount(smokeAlong(p, from.wi, from.distance), max(frame.smokeSteps / 2u, 1u)) : 0.0;
 }
 
 // Steps: equal shares of what even smoke takes from the light, else equal lengths.
@@ -126,32 +140,31 @@ struct SmokeStep {
   float from, at, to;  // along the way, from where the smoke begins
 };
 
-float warped(float share, float length) {
-  vec3 extinction = smokeExtinction();
-  float sigma = (extinction.r + extinction.g + extinction.b) / 3.0;
-  if (!smokeIsEven() || !(sigma * length > 1e-3)) return share * length;  // the logarithm is a line there
+float warped(Scatterer medium, float share, float length) {
+  float sigma = (medium.extinction.r + medium.extinction.g + medium.extinction.b) / 3.0;
+  if (!medium.even || !(sigma * length > 1e-3)) return share * length;  // the logarithm is a line there
   return min(-logOneMinus(share * oneMinusExp(sigma * length)) / sigma, length);
 }
 
 // `where`: of the sample within its step, 0..1.
-SmokeStep smokeStep(SmokeWay way, uint step, float where) {
+SmokeStep smokeStep(Scatterer medium, SmokeWay way, uint step, float where) {
   float length = way.end - way.begin, count = float(frame.smokeSteps);
-  float to = step + 1u == frame.smokeSteps ? length : warped((float(step) + 1.0) / count, length);
-  return SmokeStep(warped(float(step) / count, length), warped((float(step) + where) / count, length), to);
+  float to = step + 1u == frame.smokeSteps ? length : warped(medium, (float(step) + 1.0) / count, length);
+  return SmokeStep(warped(medium, float(step) / count, length), warped(medium, (float(step) + where) / count, length), to);
 }
 
 vec3 smokePoint(SmokeWay way, SmokeStep s) { return way.origin + (way.begin + s.at) * way.direction; }
 
 // Share of the light scattered in a step, of unit scattering, that reaches the viewer: the integral over the step.
 // `before`: density times length between the viewer and the step.
-vec3 smokeWeight(SmokeStep s, float before, float density) {
-  vec3 extinction = smokeExtinction();
+vec3 smokeWeight(Scatterer medium, SmokeStep s, float before, float density) {
+  vec3 extinction = medium.extinction;
   float length = s.to - s.from;
   vec3 depth = extinction * (density * length);
   vec3 weight = vec3(0.0);
   for (int c = 0; c < 3; ++c) {
     float share = depth[c] > 0.0 ? oneMinusExp(depth[c]) / extinction[c] : density * length;
-    weight[c] = frame.smokeScattering[c] * share * exp(-extinction[c] * before);
+    weight[c] = medium.scattering[c] * share * exp(-extinction[c] * before);
   }
   return weight;
 }
@@ -161,24 +174,42 @@ struct Air {
   vec3 light;  // what is added on the way
 };
 
-// All steps of a way. `lights`: from 0 on. `start`: in 0..1, of the places within the steps and on lights.
+// All steps of a way in smoke. `lights`: from 0 on. `start`: in 0..1, of the places within the steps and on lights.
 Air smokeOn(SmokeWay way, uint lights, vec3 start) {
   Air air = Air(vec3(1.0), vec3(0.0));
   if (!(way.end > way.begin)) return air;
+  Scatterer medium = theSmoke();
   float before = 0.0;
   for (uint k = 0u; k < frame.smokeSteps; ++k) {
-    SmokeStep s = smokeStep(way, k, start.x);
+    SmokeStep s = smokeStep(medium, way, k, start.x);
     vec3 p = smokePoint(way, s);
     float density = smokeDensity(p);
     vec3 arrives = frame.smokeAround;
     for (uint i = 0u; i < lights && specLights != 0u; ++i) {
       LightRecord light = CL_LIGHT(i);
-      arrives += scatteredLight(p, way.direction, light, lightPlace(light, p, areaPlace(k, start.yz)));
+      LightPlace from = lightPlace(light, p, areaPlace(k, start.yz));
+      arrives += scatteredLight(medium, way.direction, light, from, smokeTowards(p, from));
     }
-    air.light += smokeWeight(s, smokeIsEven() ? s.from : before, density) * arrives;
+    air.light += smokeWeight(medium, s, medium.even ? s.from : before, density) * arrives;
     before += density * (s.to - s.from);
   }
-  air.clear = exp(-smokeExtinction() * (smokeIsEven() ? way.end - way.begin : before));
+  air.clear = exp(-medium.extinction * (medium.even ? way.end - way.begin : before));
+  return air;
+}
+
+// All steps of a way in a body. Nobody knows here how much of it lies before the lights: they shine into it all over.
+Air bodyOn(Scatterer medium, SmokeWay way, uint lights, vec3 start) {
+  Air air = Air(exp(-medium.extinction * (way.end - way.begin)), vec3(0.0));
+  for (uint k = 0u; k < frame.smokeSteps; ++k) {
+    SmokeStep s = smokeStep(medium, way, k, start.x);
+    vec3 p = smokePoint(way, s);
+    vec3 arrives = frame.smokeAround;
+    for (uint i = 0u; i < lights && specLights != 0u; ++i) {
+      LightRecord light = CL_LIGHT(i);
+      arrives += scatteredLight(medium, way.direction, light, lightPlace(light, p, areaPlace(k, start.yz)), 0.0);
+    }
+    air.light += smokeWeight(medium, s, s.from, 1.0) * arrives;
+  }
   return air;
 }
 

@@ -44,7 +44,8 @@
   X(34, diffuseRoughness)    \
   X(35, angularSpecular)     \
   X(36, exactFresnel)        \
-  X(37, energyCompensation)
+  X(37, energyCompensation)  \
+  X(38, volumeScatter)
 
 CL_SHARED_BEGIN
 CL_CONST uint kBindFrame = 0;            // uniform FrameRecord

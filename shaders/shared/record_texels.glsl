@@ -90,6 +90,10 @@ TextureSlot layerSlotOf(uint material, uint layer) {
   return oddSlot(at + 2);
 }
 
+// KHR_materials_volume_scatter: bits of the albedo and of the anisotropy.
+uvec4 scatteringOf(uint material) { return texelFetch(materialTexels, int(kMaterialTexels * material) + kScatterTexel); }
+bool mediumScatters(uint material) { return any(notEqual(scatteringOf(material).xyz, uvec3(0u))); }
+
 MaterialRecord materialOf(uint material) {
   int at = int(kMaterialTexels * material);
   uvec4 a = texelFetch(materialTexels, at), b = texelFetch(materialTexels, at + 1), c = texelFetch(materialTexels, at + 2);

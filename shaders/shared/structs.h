@@ -124,12 +124,16 @@ struct MaterialRecord {
   float bumpFactor;  // EXT_materials_bump: scene units of height per texel value
   uint spare;
   TextureSlot layerTextures[kLayerTextures];
-  TextureSlot bumpTexture;   // R
-  TextureSlot spareTexture;  // whole texels: slots come in pairs
+  TextureSlot bumpTexture;  // R
+  uint unused3, unused4;    // slots come in pairs, of which the second begins in the middle of a texel
+  vec3 scatterAlbedo;  // KHR_materials_volume_scatter: share of the extinction that is scattering, of single scattering
+  float scatterAnisotropy;  // g of Henyey and Greenstein 1941, -1..1
+  uint unused5, unused6, unused7, unused8;
 };
 CL_SIZE(MaterialRecord, 1120)
 CL_CONST uint kMaterialTexels = 70u;
-CL_CONST int kBodyTexel = 21;  // the one that holds `priority` and `dispersion`
+CL_CONST int kBodyTexel = 21;     // the one that holds `priority` and `dispersion`
+CL_CONST int kScatterTexel = 68;  // the one that holds `scatterAlbedo` and `scatterAnisotropy`
 CL_CONST uint kMaterialDoubleSided = 1u;
 CL_CONST uint kMaterialAlphaMask = 2u;
 CL_CONST uint kMaterialAlphaBlend = 4u;

@@ -89,7 +89,9 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode, 1u));
   SegmentFog fog = SegmentFog(0.0, true, Fog(1.0, 0.0));
   if (CL_HAS(fog)) fog = fogAtHit(pushed.firstNode + shaded_, ray, hit.t, isInsideBody(ray, h));
-  if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode)
+  // What a body scatters is added on the way: smoke.comp takes away what it absorbs, too.
+  bool scattered = CL_HAS_TOO(volumeScatter) && ray.medium != kNoRayNode && mediumScatters(ray.medium);
+  if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode && !scattered)
     shaded.weightScale = absorbed(ray.medium, hit.t * length(ray.direction));
   SurfaceMedia media = kNoMedia;
   if (CL_HAS(nestedMedia)) {

@@ -143,6 +143,30 @@ void dispersion(GltfBuilder& gltf) {
   setAtmosphere(gltf, 0.2, {0.02, 0.02, 0.03});
 }
 
+// A ball of milky glass and a block of amber, lit from the side: what light scatters within them, and their shadows in
+// it.
+void volumeScatter(GltfBuilder& gltf) {
+  addFloor(gltf, {0.03, 0.03, 0.033});  // a light that shows in a body is bright on a floor
+  const auto milky = [&](const char* name, const dvec3& left, const dvec3& seen, double g) {
+    Json glass = glassMaterial(name, dvec3(1.0), 1.33);
+    glass["extensions"]["KHR_materials_volume"]["attenuationColor"] = listOf(left);
+    glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 1.0;
+    glass["extensions"]["KHR_materials_volume_scatter"] = {{"multiscatterColor", listOf(seen)},
+                                                           {"scatterAnisotropy", g}};
+    return gltf.addMaterial(std::move(glass));
+  };
+  const int milk = milky("milk", {0.05, 0.05, 0.06}, {0.9, 0.9, 0.9}, 0.0);
+  const int amber = milky("amber", {0.3, 0.12, 0.02}, {0.9, 0.5, 0.03}, 0.3);
+  gltf.addRoot(shapeNode(gltf, "ball", {.params = {0.7, 0.0, 0.0}}, milk, {-0.8, 0.71, 0.0}));
+  Json block = shapeNode(gltf, "block", {.kind = ShapeKind::box, .params = {0.9, 1.2, 0.8}, .segments = 3}, amber,
+                         {0.95, 0.61, 0.0});
+  block.erase("extensions");  // its triangles are met
+  gltf.addRoot(std::move(block));
+  addDirectionalLight(gltf, "sun", {0.8, -0.7, -0.5}, {.color = dvec3(22.0)});
+  addCamera(gltf, {.eye = {0.3, 1.7, 5.2}, .target = {0.0, 0.6, 0.0}, .yFovDegrees = 38.0});
+  setAtmosphere(gltf, 0.05, {0.09, 0.11, 0.14});
+}
+
 Json coloredGlass(const char* name, const dvec3& tint, const dvec3& left) {
   Json glass = glassMaterial(name, tint, 1.5);
   glass["extensions"]["KHR_materials_volume"]["attenuationColor"] = listOf(left);
@@ -176,6 +200,7 @@ constexpr SceneRow kRows[] = {
     {"feature/fog_exp2", "fog e^-(density d)^2", fogExp2},
     {"feature/dispersion", "bodies of glass that bend every color by its own index", dispersion},
     {"feature/colored_shadow", "light through colored glass: bodies and a pane", coloredShadow},
+    {"feature/volume_scatter", "milky glass and amber: light scattered once within bodies", volumeScatter},
     {"feature/nested_media", "ice and glass that overlap water, kept apart by priority", nestedMedia},
     {"feature/smoke", "even smoke in a box, and a shadow in it", smoke},
     {"feature/smoke_grid", "smoke of a density given by a grid", smokeGrid},

@@ -161,7 +161,7 @@ TEST(GltfMaterial, KhronosExtensionsAreRead) {
   EXPECT_REFUSED(file, "/materials/2/extensions/KHR_materials_ior/ior");
 }
 
-TEST(GltfMaterial, ScatteringWithinABodyIsNamedAsNotSimulated) {
+TEST(GltfMaterial, ScatteringWithinABodyIsRead) {
   GltfFile file;
   const auto scatter = [&](double anisotropy) {
     file.json["materials"] = {{{"extensions",
@@ -169,9 +169,9 @@ TEST(GltfMaterial, ScatteringWithinABodyIsNamedAsNotSimulated) {
                                   {{"multiscatterColor", {0.5, 0.25, 1}}, {"scatterAnisotropy", anisotropy}}}}}}};
   };
   scatter(0.5);
-  file.load();
-  EXPECT_TRUE(warned(file.folder().path().string() +
-                     "/scene.gltf: /materials/0/extensions/KHR_materials_volume_scatter: is not simulated"));
+  const Material m = file.load().materials[0];
+  EXPECT_EQ(m.multiscatterColor, glm::vec3(0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(m.scatterAnisotropy, 0.5f);
   scatter(1.5);
   EXPECT_REFUSED(file, "/materials/0/extensions/KHR_materials_volume_scatter/scatterAnisotropy");
 }
