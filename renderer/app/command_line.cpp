@@ -64,12 +64,12 @@ void CommandLine::onRun(CLI::App& command, std::function<void()> run) {
 
 CLI::Option* CommandLine::flag(CLI::App& command, const std::string& names, bool& target,
                                const std::string& description) {
-  return declare(command.add_flag(names, target, description), "", ValueModel{ValueKind::none, {}});
+  return declare(command.add_flag(names, target, description), "", ValueModel{ValueKind::none, {}, {}});
 }
 
 CLI::Option* CommandLine::text(CLI::App& command, const std::string& names, std::string& target,
                                const std::string& value, const std::string& description, ValueKind kind) {
-  return declare(command.add_option(names, target, description), value, ValueModel{kind, {}});
+  return declare(command.add_option(names, target, description), value, ValueModel{kind, {}, {}});
 }
 
 CLI::Option* CommandLine::choice(CLI::App& command, const std::string& names, std::string& target,
@@ -79,7 +79,7 @@ CLI::Option* CommandLine::choice(CLI::App& command, const std::string& names, st
     const bool known = std::find(choices.begin(), choices.end(), word) != choices.end();
     return known ? std::string() : unknownWord(what, word, choices);
   });
-  return declare(option, joined(choices, "|"), ValueModel{ValueKind::choice, choices});
+  return declare(option, joined(choices, "|"), ValueModel{ValueKind::choice, choices, {}});
 }
 
 CLI::Option* CommandLine::number(CLI::App& command, const std::string& names, double& target, const std::string& value,
@@ -192,6 +192,7 @@ OptionModel CommandLine::describe(const CLI::Option& option) const {
   if (found == values_.end()) return model;  // CLI11's own flags: help and version
   model.kind = found->second.kind;
   model.choices = found->second.choices;
+  model.keys = found->second.keys;
   if (model.kind == ValueKind::none) return model;
   model.value = option.get_type_name();
   model.repeatable = option.get_items_expected_max() > 1;

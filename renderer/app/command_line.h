@@ -28,6 +28,7 @@ struct Command {
 struct ValueModel {
   ValueKind kind = ValueKind::text;
   std::vector<std::string> choices;
+  std::vector<KeyModel> keys = {};
 };
 
 class CommandLine {

@@ -44,7 +44,13 @@ std::string paragraphs(const std::string& text) {
 
 std::string optionList(const std::vector<OptionModel>& options) {
   std::string text;
-  for (const OptionModel& option : options) text += tagged(headOf(option), explanationOf(option));
+  for (const OptionModel& option : options) {
+    text += tagged(headOf(option), explanationOf(option));
+    if (option.keys.empty()) continue;
+    text += ".RS\n";
+    for (const KeyModel& key : option.keys) text += tagged(key.head, explanationOf(key));
+    text += ".RE\n";
+  }
   return text;
 }
 

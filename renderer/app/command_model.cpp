@@ -19,6 +19,10 @@ std::string explanationOf(const OptionModel& option) {
   return text;
 }
 
+std::string explanationOf(const KeyModel& key) {
+  return key.meaning + "." + (key.methods.empty() ? "" : " Heeded by " + key.methods + ".");
+}
+
 std::vector<std::string> groupsOf(const std::vector<OptionModel>& options) {
   std::vector<std::string> groups;
   for (const OptionModel& option : options) {

@@ -9,6 +9,13 @@ namespace crosslight {
 // What completion offers for a value.
 enum class ValueKind { none, text, choice, keyValue, file };
 
+// One key of an option KEY=VALUE.
+struct KeyModel {
+  std::string head;  // "shadows=on|off", the default first
+  std::string meaning;
+  std::string methods;  // that heed it: "flat, gouraud"; empty: all
+};
+
 struct OptionModel {
   std::vector<std::string> names;  // "-o", "--output"; empty for a positional argument
   std::string value;               // placeholder: "FILE", "WxH"; empty for a flag
@@ -16,6 +23,7 @@ struct OptionModel {
   std::string group;
   std::string defaultText;           // empty: none worth showing
   std::vector<std::string> choices;  // of choice: the values; of keyValue: every "key=value"
+  std::vector<KeyModel> keys;        // of keyValue
   ValueKind kind = ValueKind::none;
   bool repeatable = false;
 
@@ -51,6 +59,7 @@ struct ProgramModel {
 std::string headOf(const OptionModel& option);
 // Description and default as sentences.
 std::string explanationOf(const OptionModel& option);
+std::string explanationOf(const KeyModel& key);
 // Group names in the order of first use.
 std::vector<std::string> groupsOf(const std::vector<OptionModel>& options);
 

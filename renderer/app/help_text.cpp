@@ -1,6 +1,7 @@
 // Help for the terminal and the options table of the README.
 #include <fmt/format.h>
 
+#include <set>
 #include <sstream>
 
 #include "app/command_model.h"
@@ -58,6 +59,11 @@ std::string optionGroups(const std::vector<OptionModel>& options) {
       if (option.group == group) text += entry(headOf(option), explanationOf(option));
     }
   }
+  for (const OptionModel& option : options) {
+    if (option.keys.empty()) continue;
+    text += fmt::format("\nKeys of {}:\n", option.longName());
+    for (const KeyModel& key : option.keys) text += entry(key.head, explanationOf(key));
+  }
   return text;
 }
 
@@ -90,11 +96,18 @@ std::string helpText(const ProgramModel& program, const CommandModel& command) {
 
 std::string markdownTable(const ProgramModel& program) {
   std::string text;
+  std::set<std::string> told;  // keys that several commands have in common are listed once
   for (const CommandModel& command : program.commands) {
     text += fmt::format("`{} {}`: {}.\n\n| option | meaning |\n|---|---|\n", program.name, command.synopsis,
                         command.summary);
     for (const OptionModel& option : command.options) {
       text += fmt::format("| `{}` | {} |\n", markdownCell(headOf(option)), markdownCell(explanationOf(option)));
+    }
+    for (const OptionModel& option : command.options) {
+      if (option.keys.empty() || !told.insert(option.longName()).second) continue;
+      text += fmt::format("\n| `{}` | meaning |\n|---|---|\n", option.longName());
+      for (const KeyModel& key : option.keys)
+        text += fmt::format("| `{}` | {} |\n", markdownCell(key.head), markdownCell(explanationOf(key)));
     }
     text += "\n";
   }

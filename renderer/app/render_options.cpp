@@ -163,8 +163,9 @@ void addPictureOptions(CommandLine& line, CLI::App& command, RenderOptions& o) {
           "before interpolation, flat shading from the last vertex, an infinite viewer, fog by depth; --set changes "
           "single ones of these")
       ->group("Picture");
-  line.list(command, "--set", o.set, "KEY=VALUE", "Change how things are drawn: " + setKeysExplained(),
-            {ValueKind::keyValue, allSetPairs()})
+  line.list(command, "--set", o.set, "KEY=VALUE",
+            "Change how things are drawn; of its keys see below, the first value is the default",
+            {ValueKind::keyValue, allSetPairs(), setKeysExplained()})
       ->group("Picture");
   line.text(command, "--environment", o.environment, "FILE",
             "Light from all around: an equirectangular .hdr, .exr or .pfm instead of the scene's", ValueKind::file)

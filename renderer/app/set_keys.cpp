@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
+#include "app/render_job.h"
 #include "app/suggest.h"
 #include "base/error.h"
 
@@ -222,13 +224,17 @@ std::vector<std::string> allSetPairs() {
   return pairs;
 }
 
-std::string setKeysExplained() {
-  std::string text;
+std::vector<KeyModel> setKeysExplained() {
+  std::vector<KeyModel> keys;
   for (const SetKey& row : setKeys()) {
-    if (!text.empty()) text += "; ";
-    text += std::string(row.key) + "=" + valuesOf(row) + " (" + row.meaning + ")";
+    std::vector<std::string> methods;
+    for (const Method method : row.methods) methods.emplace_back(nameOf(method));
+    std::string meaning = row.meaning;
+    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+    if (row.values.empty()) meaning += fmt::format("; default: {:g}", row.number.fallback);
+    keys.push_back({fmt::format("{}={}", row.key, valuesOf(row)), std::move(meaning), joined(methods, ", ")});
   }
-  return text;
+  return keys;
 }
 
 const SetKey& applySet(const std::string& pair, RenderSettings& settings) {

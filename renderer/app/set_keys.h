@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/command_model.h"
 #include "scene/settings.h"
 
 namespace crosslight {
@@ -28,8 +29,8 @@ const std::vector<SetKey>& setKeys();
 
 // Every "key=value" there is, in the order of the table.
 std::vector<std::string> allSetPairs();
-// One sentence per key, for help.
-std::string setKeysExplained();
+// For help.
+std::vector<KeyModel> setKeysExplained();
 
 // UsageError on an unknown key or value, listing what there is.
 const SetKey& applySet(const std::string& pair, RenderSettings& settings);
