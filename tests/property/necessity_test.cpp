@@ -107,6 +107,7 @@ constexpr Row kRows[] = {
     {"turnedShapes", kRays, "feature/shapes", "feature/point", 0.1},
     {"fog", kRaster, "feature/fog_exp", "feature/point", 0.1},
     {"smoke", kRaster, "feature/smoke", "feature/point", 0.1},
+    {"volumeScatter", kRays, "feature/volume_scatter", "feature/refraction", 0.1},
     {"environment", kRaster, "feature/environment", "feature/point", 0.1},
     {"softShadows", kRays, "feature/areaDisk", "feature/point", 0.01},
     {"dispersion", kRays, "feature/dispersion", "feature/refraction", 0.01, nullptr,
