@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "effects/analysis.h"
+#include "effects/material_traits.h"
 #include "effects/view.h"
 
 namespace crosslight {
@@ -142,6 +143,7 @@ std::vector<LightVerdict> shadowsOfLights(const Scene& scene, const RenderSettin
     const std::string name = quoted("light", light.name, i);
     const std::optional<std::string> why = !rays                              ? "they come from depth maps"
                                            : hasSmoke(scene.atmosphere.smoke) ? "smoke shows them in the air"
+                                           : anyScatters(scene)               ? "bodies that scatter show them"
                                            : isArea(light)                    ? "it has an area"
                                                                               : obstacles.between(light);
     verdicts.push_back({light.name, why.has_value(),

@@ -126,6 +126,16 @@ TEST(VolumeScatter, isShadowedAndKnowsShadowsInColor) {
 }
 
 // van de Hulst 1980, "Multiple Light Scattering", what a half space of isotropic scatterers reflects.
+// A flat mesh before which nothing stands sends shadow rays all the same: they find the way through the body.
+TEST(VolumeScatter, lightsOfAnOpenSceneCastShadows) {
+  Slab slab(mist({0.5f, 0.3f, 0.9f}, glm::vec3(0.8f)), true);
+  slab.scene.lights = {sun({0, 0, -1})};
+  const Plan plan = makePlan(slab.scene, settingsFor(Method::whitted, 9, 9));
+  EXPECT_TRUE(plan.has(Effect::shadows));
+  ASSERT_EQ(plan.lightShadows.size(), 1u);
+  EXPECT_EQ(plan.lightShadows[0].reason, "light 0 may cast shadows: bodies that scatter show them");
+}
+
 TEST(VolumeScatter, albedoIsThatOfAHalfSpaceOfTheColor) {
   for (const float seen : {0.001f, 0.1f, 0.5f, 0.9f, 1.0f}) {
     const double s = std::sqrt(1.0 - static_cast<double>(scatteringAlbedo(mist(glm::vec3(0.5f), glm::vec3(seen))).x));
