@@ -136,9 +136,9 @@ struct Material {
   float attenuationDistance = std::numeric_limits<float>::infinity();
   glm::vec3 multiscatterColor{0.0f};  // KHR_materials_volume_scatter: what a thick body of it would reflect
   float scatterAnisotropy = 0.0f;     // g of Henyey and Greenstein 1941, -1..1
-  TextureUse bumpTexture;          // EXT_materials_bump: height in the red channel
-  float bumpFactor = 1.0f;         // scene units per texel value
-  TextureUse displacementTexture;  // CROSSLIGHT_materials_displacement: height in the red channel
+  TextureUse bumpTexture;             // EXT_materials_bump: height in the red channel
+  float bumpFactor = 1.0f;            // scene units per texel value
+  TextureUse displacementTexture;     // CROSSLIGHT_materials_displacement: height in the red channel
   float displacementScale = 1.0f, displacementBias = 0.0f;  // scene units
   ClassicMaterial classic;                                  // for all models but cookTorrance and unlit
   MaterialLayers layers;                                    // for cookTorrance
