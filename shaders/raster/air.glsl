@@ -6,7 +6,7 @@
 #include "raster/behind.glsl"
 
 vec3 throughSmokeFrom(vec3 color, vec3 behind, vec3 origin, vec3 d, float distance) {
-  return throughSmoke(color, behind, smokeOn(smokeAlong(origin, d, distance), drawnLightCount(), vec3(0.5)));
+  return throughSmoke(color, behind, airOn(theSmoke(), smokeAlong(origin, d, distance), drawnLightCount(), vec3(0.5)));
 }
 
 // `behind`: share of what lies behind that shows.

@@ -16,11 +16,12 @@ struct Scatterer {
   vec3 scattering;
   float anisotropy;  // g of Henyey and Greenstein 1941, -1..1
   bool even;         // the density is 1 all over
+  bool body;         // not the smoke of the frame, but what is within a refracting body, and even
 };
 
 Scatterer theSmoke() {
   return Scatterer(frame.smokeAbsorption + frame.smokeScattering, frame.smokeScattering, frame.smokeAnisotropy,
-                   frame.smokeGridX == 0u);
+                   frame.smokeGridX == 0u, false);
 }
 
 // The part of a way that lies in the medium, along a unit direction.
@@ -131,8 +132,9 @@ vec3 scatteredLight(Scatterer medium, vec3 d, LightRecord light, LightPlace from
   return light.diffuse * (from.share * scatteredTowards(medium.anisotropy, dot(from.wi, d))) * exp(-medium.extinction * amount);
 }
 
-float smokeTowards(vec3 p, LightPlace from) {
-  return from.share > 0.0 ? smokeAmount(smokeAlong(p, from.wi, from.distance), max(frame.smokeSteps / 2u, 1u)) : 0.0;
+// How much of the medium lies before a light. Of a body nobody knows it here: rays find the way out of it.
+float amountTowards(Scatterer medium, vec3 p, LightPlace from) {
+  return !medium.body && from.share > 0.0 ? smokeAmount(smokeAlong(p, from.wi, from.distance), max(frame.smokeSteps / 2u, 1u)) : 0.0;
 }
 
 // Steps: equal shares of what even smoke takes from the light, else equal lengths.
@@ -152,6 +154,8 @@ SmokeStep smokeStep(Scatterer medium, SmokeWay way, uint step, float where) {
   float to = step + 1u == frame.smokeSteps ? length : warped(medium, (float(step) + 1.0) / count, length);
   return SmokeStep(warped(medium, float(step) / count, length), warped(medium, (float(step) + where) / count, length), to);
 }
+
+float densityAt(Scatterer medium, vec3 p) { return medium.body ? 1.0 : smokeDensity(p); }
 
 vec3 smokePoint(SmokeWay way, SmokeStep s) { return way.origin + (way.begin + s.at) * way.direction; }
 
@@ -174,42 +178,25 @@ struct Air {
   vec3 light;  // what is added on the way
 };
 
-// All steps of a way in smoke. `lights`: from 0 on. `start`: in 0..1, of the places within the steps and on lights.
-Air smokeOn(SmokeWay way, uint lights, vec3 start) {
+// All steps of a way. `lights`: from 0 on. `start`: in 0..1, of the places within the steps and on lights.
+Air airOn(Scatterer medium, SmokeWay way, uint lights, vec3 start) {
   Air air = Air(vec3(1.0), vec3(0.0));
   if (!(way.end > way.begin)) return air;
-  Scatterer medium = theSmoke();
   float before = 0.0;
   for (uint k = 0u; k < frame.smokeSteps; ++k) {
     SmokeStep s = smokeStep(medium, way, k, start.x);
     vec3 p = smokePoint(way, s);
-    float density = smokeDensity(p);
+    float density = densityAt(medium, p);
     vec3 arrives = frame.smokeAround;
     for (uint i = 0u; i < lights && specLights != 0u; ++i) {
       LightRecord light = CL_LIGHT(i);
       LightPlace from = lightPlace(light, p, areaPlace(k, start.yz));
-      arrives += scatteredLight(medium, way.direction, light, from, smokeTowards(p, from));
+      arrives += scatteredLight(medium, way.direction, light, from, amountTowards(medium, p, from));
     }
     air.light += smokeWeight(medium, s, medium.even ? s.from : before, density) * arrives;
     before += density * (s.to - s.from);
   }
   air.clear = exp(-medium.extinction * (medium.even ? way.end - way.begin : before));
-  return air;
-}
-
-// All steps of a way in a body. Nobody knows here how much of it lies before the lights: they shine into it all over.
-Air bodyOn(Scatterer medium, SmokeWay way, uint lights, vec3 start) {
-  Air air = Air(exp(-medium.extinction * (way.end - way.begin)), vec3(0.0));
-  for (uint k = 0u; k < frame.smokeSteps; ++k) {
-    SmokeStep s = smokeStep(medium, way, k, start.x);
-    vec3 p = smokePoint(way, s);
-    vec3 arrives = frame.smokeAround;
-    for (uint i = 0u; i < lights && specLights != 0u; ++i) {
-      LightRecord light = CL_LIGHT(i);
-      arrives += scatteredLight(medium, way.direction, light, lightPlace(light, p, areaPlace(k, start.yz)), 0.0);
-    }
-    air.light += smokeWeight(medium, s, s.from, 1.0) * arrives;
-  }
   return air;
 }
 

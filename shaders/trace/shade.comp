@@ -90,8 +90,8 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   SegmentFog fog = SegmentFog(0.0, true, Fog(1.0, 0.0));
   if (CL_HAS(fog)) fog = fogAtHit(pushed.firstNode + shaded_, ray, hit.t, isInsideBody(ray, h));
   // What a body scatters is added on the way: smoke.comp takes away what it absorbs, too.
-  bool scattered = CL_HAS_TOO(volumeScatter) && ray.medium != kNoRayNode && mediumScatters(ray.medium);
-  if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode && !scattered)
+  if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode &&
+      !(CL_HAS_TOO(volumeScatter) && mediumScatters(ray.medium)))
     shaded.weightScale = absorbed(ray.medium, hit.t * length(ray.direction));
   SurfaceMedia media = kNoMedia;
   if (CL_HAS(nestedMedia)) {

@@ -71,7 +71,7 @@ Scatterer scattererOf(uint body) {
   MaterialRecord m = materialOf(body);
   vec3 extinction = -log(max(m.attenuationColor, vec3(1.0 / kLargest))) / m.attenuationDistance;
   uvec4 s = scatteringOf(body);
-  return Scatterer(extinction, extinction * uintBitsToFloat(s.xyz), uintBitsToFloat(s.w), true);
+  return Scatterer(extinction, extinction * uintBitsToFloat(s.xyz), uintBitsToFloat(s.w), true, true);
 }
 
 float amountBefore(Scatterer medium, SmokeWay way, uint step, float where) {
@@ -85,26 +85,25 @@ float amountBefore(Scatterer medium, SmokeWay way, uint step, float where) {
 
 // One step of one light; its shadow ray begins in the open. All lanes come along: few_shapes.glsl shares loads.
 vec3 lightOfStep(Scatterer medium, SmokeWay way, RayRecord ray, bool asks) {
-  bool inBody = CL_HAS_TOO(volumeScatter) && body_ != kNoRayNode;
   vec3 start = startOf(ray);
   SmokeStep s = smokeStep(medium, way, pushed.smokeStep, start.x);
   vec3 p = smokePoint(way, s);
   LightRecord light = lightOf(pushed.lightInBatch);
   LightPlace from = lightPlace(light, p, areaPlace(pushed.smokeStep, start.yz));
-  vec3 arrives = scatteredLight(medium, way.direction, light, from, inBody ? 0.0 : smokeTowards(p, from));
+  vec3 arrives = scatteredLight(medium, way.direction, light, from, amountTowards(medium, p, from));
   bool counts = asks && any(greaterThan(arrives, vec3(0.0)));
   bool parallel = light.type == kLightType_directional;
   Ray to = Ray(p, parallel ? from.wi : from.distance * from.wi, 0.0, parallel ? kLargest : kShadowEnd, kNoHit);
   if (!counts) to.tMax = -1.0;
   arrives *= lightPassed(to, kFewShapes && CL_HAS(shapes) ? shapesAhead(to) : 0u);
-  if (inBody) arrives *= exp(-medium.extinction * crossedLength());
+  if (medium.body) arrives *= exp(-medium.extinction * crossedLength());
   if (inColor()) {
     uint c = pushed.shadowChannel;
     arrives *= vec3(c == 0u ? 1.0 : 0.0, c == 1u ? 1.0 : 0.0, c == 2u ? 1.0 : 0.0);
   }
   float before = s.from;
   if (!medium.even) before = amountBefore(medium, way, pushed.smokeStep, start.x);
-  return smokeWeight(medium, s, before, inBody ? 1.0 : smokeDensity(p)) * arrives;
+  return smokeWeight(medium, s, before, densityAt(medium, p)) * arrives;
 }
 
 void main() {
@@ -134,10 +133,7 @@ void main() {
     return;
   }
   if (!counts) return;
-  uint lights = CL_HAS(shadows) ? 0u : frame.lightCount;
-  Air air;
-  if (inBody) air = bodyOn(medium, way, lights, startOf(ray));
-  else air = smokeOn(way, lights, startOf(ray));
+  Air air = airOn(medium, way, CL_HAS(shadows) ? 0u : frame.lightCount, startOf(ray));
   weaken(node, pixel, air.clear);
   addTo(node, pixel, air.light);
 }
