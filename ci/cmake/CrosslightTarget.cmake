@@ -14,10 +14,17 @@ function(crosslight_flags target)
   endif()
 endfunction()
 
-# crosslight_room(NAME [USES room...] [LIBS library...]): all .cpp files of renderer/NAME as crosslight_NAME. A room that
-# has only headers (yet) is an interface library.
+# crosslight_precompile(TARGET header...): headers of large libraries, read once for all files of the target. Files
+# include what they use all the same.
+function(crosslight_precompile target)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
+endfunction()
+
+# crosslight_room(NAME [USES room...] [LIBS library...] [PRECOMPILE header...]): all .cpp files of renderer/NAME as
+# crosslight_NAME. A room that has only headers (yet) is an interface library.
 function(crosslight_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;LIBS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "USES;LIBS;PRECOMPILE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/renderer/${name}/*.cpp)
   set(room crosslight_${name})
   set(scope PUBLIC)
@@ -25,6 +32,9 @@ function(crosslight_room name)
     add_library(${room} STATIC ${sources})
     crosslight_flags(${room})
     set_property(GLOBAL APPEND PROPERTY CROSSLIGHT_ROOMS ${room})
+    if(ROOM_PRECOMPILE)
+      crosslight_precompile(${room} ${ROOM_PRECOMPILE})
+    endif()
   else()
     set(scope INTERFACE)
     add_library(${room} INTERFACE)

@@ -2,8 +2,10 @@
 #pragma once
 
 // The loader is linked, not opened by hand: the tool of vulkan.hpp would ask for libvulkan.so of the -dev package
-// first.
+// first. The room's own build has it from CMake, for its precompiled header.
+#ifndef VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL
 #define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
+#endif
 #include <functional>
 #include <list>
 #include <memory>
