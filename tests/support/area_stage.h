@@ -90,14 +90,6 @@ inline double overLight(const Light& light, const glm::dvec3& p, int n,
   return sum;
 }
 
-inline Material lambert(float kd) {
-  Material m;
-  m.model = IlluminationModel::lambert;
-  m.classic.ambientFactor = glm::vec3(0.0f);
-  m.classic.diffuseFactor = glm::vec3(kd);
-  return m;
-}
-
 // The wall z = -3 faces the camera.
 struct LitWall : Stage {
   explicit LitWall(const Light& light, const Material& material = lambert(1.0f)) {

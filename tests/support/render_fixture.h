@@ -13,6 +13,7 @@
 #include "app/scene_extras.h"
 #include "image/image.h"
 #include "scene/load.h"
+#include "study/stage.h"
 
 namespace crosslight::testing {
 
@@ -45,19 +46,8 @@ inline std::vector<std::string> allSceneNames() {
   return names;
 }
 
-inline RenderSettings settingsFor(Method method, std::uint32_t width, std::uint32_t height) {
-  RenderSettings s;
-  s.method = method;
-  s.width = width;
-  s.height = height;
-  return s;
-}
-
-inline std::array<float, 4> pixelAt(const Image& image, std::uint32_t x, std::uint32_t y) {
-  const std::vector<float>& samples = image.picture().samples;
-  const std::size_t at = 4 * (std::size_t{y} * image.width + x);
-  return {samples[at], samples[at + 1], samples[at + 2], samples[at + 3]};
-}
+using study::pixelAt;
+using study::settingsFor;
 
 // Where two pictures differ most, over the pixels for which `counts` holds.
 struct Difference {

@@ -1,39 +1,21 @@
-// Meshes and random numbers of the accel tests: the same on every machine, because nothing of <random>'s
-// implementation-defined distributions is used.
+// Meshes of the accel tests, the same on every machine.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "accel/intersect.h"
+#include "study/meshes.h"
+#include "study/random_numbers.h"
 
 namespace crosslight::testing {
 
 using oracle::Ray;
 using oracle::Triangle;
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-
-  double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double between(double low, double high) { return low + (high - low) * unit(); }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits_() % n); }
-  glm::vec3 inBox(double half) {
-    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
-    return glm::vec3(glm::dvec3(x, y, z));
-  }
-  glm::dvec3 direction() {
-    const double z = between(-1, 1), phi = between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(phi), r * std::sin(phi), z};
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
+using study::Random;
 
 inline std::vector<Bounds> boundsOf(const std::vector<Triangle>& triangles) {
   std::vector<Bounds> bounds;
@@ -87,18 +69,9 @@ inline std::vector<Triangle> torusKnot(int rows, int columns) {
 
 // Closed: the poles are single points, neighboring triangles share bit-identical corners.
 inline std::vector<Triangle> uvSphere(int rings, int segments, const glm::dvec3& center, double radius) {
-  const auto at = [&](int i, int j) {
-    const double theta = std::numbers::pi * i / rings, phi = 2 * std::numbers::pi * (j % segments) / segments;
-    const double s = i == 0 || i == rings ? 0.0 : std::sin(theta);
-    return glm::vec3(center + radius * glm::dvec3(s * std::cos(phi), std::cos(theta), s * std::sin(phi)));
-  };
+  const std::vector<glm::vec3> corners = study::uvSphereCorners(rings, segments, center, radius);
   std::vector<Triangle> triangles;
-  for (int i = 0; i < rings; ++i) {
-    for (int j = 0; j < segments; ++j) {
-      if (i + 1 < rings) triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      if (i > 0) triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
+  for (std::size_t i = 0; i < corners.size(); i += 3) triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
   return triangles;
 }
 

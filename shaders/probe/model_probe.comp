@@ -1,5 +1,5 @@
 #version 460
-// What a surface sends towards wo of a white light of unit intensity from wi, at points that a test chooses: the same
+// What a surface sends towards wo of a white light of unit intensity from wi, at points that the host chooses: the same
 // functions as raster and rays, without geometry and lights between.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene_bindings.glsl"
