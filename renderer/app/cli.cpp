@@ -28,6 +28,7 @@ int runCommandLine(int argc, char** argv) {
     CommandLine line;
     addRenderCommand(line);
     addExplainCommand(line);
+    addStabilityCommand(line);
     addInfoCommand(line);
     addDevicesCommand(line);
     addMergeCommand(line);

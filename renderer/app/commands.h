@@ -7,6 +7,7 @@ class CommandLine;
 
 void addRenderCommand(CommandLine& line);
 void addExplainCommand(CommandLine& line);
+void addStabilityCommand(CommandLine& line);
 void addInfoCommand(CommandLine& line);
 void addDevicesCommand(CommandLine& line);
 void addMergeCommand(CommandLine& line);

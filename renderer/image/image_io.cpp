@@ -90,6 +90,10 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Dis
   writeFileAtomically(path, codec::View(file));
 }
 
+std::vector<std::byte> pngOf(const Image& image, const DisplayTransform& display) {
+  return codec::encodePng(image, display, "picture");
+}
+
 Image readImage(const std::filesystem::path& path) {
   const ImageFormat format = imageFormatOf(path);
   const codec::Bytes file = readFile(path);

@@ -1,6 +1,7 @@
 // Images from and to files. The format follows the file's extension.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -28,6 +29,9 @@ ImageFormat imageFormatOf(const std::filesystem::path& path);
 // Written whole or not at all. EXR carries every layer and the metadata; the others carry the picture only. An image of
 // shownCodes becomes a PNG of just these, whatever `display` says.
 void writeImage(const std::filesystem::path& path, const Image& image, const DisplayTransform& display = {});
+
+// The PNG file that writeImage would write.
+std::vector<std::byte> pngOf(const Image& image, const DisplayTransform& display = {});
 
 // Reads png (sRGB decoded to linear), exr (all layers), hdr, pfm. InputError names file and cause.
 Image readImage(const std::filesystem::path& path);
