@@ -23,6 +23,8 @@ std::vector<HardCase> mathCases();
 std::vector<HardCase> opticsCases();
 std::vector<HardCase> modelCases();
 std::vector<HardCase> energyCases();
+std::vector<HardCase> textureCases();
+std::vector<HardCase> pipelineCases();
 std::vector<HardCase> shapeCases();
 std::vector<HardCase> torusCases();
 std::vector<HardCase> meshCases();

@@ -65,6 +65,28 @@ void closeSurfaces(const Bench& bench, CaseResult& result) {
   }
 }
 
+// Squares that face the eye, apart by two units in the last place of their distance.
+void depthSteps(const Bench& bench, CaseResult& result) {
+  std::uint64_t wrong = 0, naive = 0, compared = 0;
+  for (const double distance : {1.0, 10.0, 100.0, 1000.0, 9000.0}) {
+    const double gap = 2 * kUlp;
+    Stage stage;
+    stage.scene.cameras[0].zNear = 0.1;
+    const int front = stage.add(emitter(1)), back = stage.add(emitter(0.25f));
+    for (const bool isFront : {false, true}) {
+      Primitive p = tiltedSquare(distance, isFront ? gap : 0, isFront ? front : back);
+      for (glm::vec3& v : p.positions) v.z = static_cast<float>(-distance * (isFront ? 1 - gap : 1));
+      stage.addMesh(p);
+    }
+    const Shot shot = bench.draw(stage.scene, withIds(Method::phong));
+    for (std::size_t i = 0; i < shot.image.pixels(); ++i) wrong += objectAt(shot.image, i) == 0u;
+    compared += shot.image.pixels();
+    naive += lostByStandardDepth(distance, gap);
+  }
+  result.count("phong", "pixels that show the square behind, 2.4e-7 of the distance nearer, from 1 to 9000", wrong,
+               compared, static_cast<double>(naive));
+}
+
 void hugeTriangles(const Bench& bench, CaseResult& result, const std::vector<double>& sizes) {
   for (const Method method : kRasterAndRays) {
     std::uint64_t missing = 0;
@@ -189,6 +211,8 @@ void deepPerspective(const Bench& bench, CaseResult& result) {
 
 std::vector<HardCase> depthCases() {
   return {
+      {"R1", "depth steps by distance", "standard depth with its near plane at 0.1 resolves 25 units at 9000",
+       "twice the float's own step, 2^-23 of the distance", true, depthSteps},
       {"R2", "nearly coincident surfaces",
        "standard depth cannot tell surfaces apart that are 1 % of their distance away "
        "from each other",

@@ -134,6 +134,40 @@ void farBall(const Bench& bench, CaseResult& result) {
   }
 }
 
+// A triangle of half a unit's area at a distance before a wall: area / d^2.
+void farTriangle(const Bench& bench, CaseResult& result) {
+  for (const Method method : kRasterAndRays) {
+    Worst worst;
+    for (const double distance : {1e3, 1e4, 1e6}) {
+      Light lamp;
+      lamp.type = LightType::areaTriangle;
+      lamp.worldPosition = {0, 0, distance - 2};
+      lamp.worldDirection = {0, 0, -1};
+      lamp.worldU = {1, 0, 0};  // u x v against the way of the light
+      lamp.worldV = {0, 1, 0};
+      Stage stage;
+      stage.addWall(-2.0, stage.add(lambert(1)));
+      for (int axis = 0; axis < 2; ++axis) stage.scene.instances[0].worldFromObject[axis] /= 4096.0;
+      stage.scene.lights = {lamp};
+      RenderSettings s = settingsFor(method, 9, 9);
+      s.shadows = false;
+      const double exact = 0.5 / (distance * distance);
+      worst.addRelative(pixelAt(bench.draw(stage.scene, s).image, 4, 4)[0], exact);
+      // Girard 1629: the excess of three angles by acos, in single precision.
+      const auto d = static_cast<float>(distance);
+      const glm::vec3 a = glm::normalize(glm::vec3(0, 0, d)), b = glm::normalize(glm::vec3(1, 0, d)),
+                      c = glm::normalize(glm::vec3(0, 1, d));
+      const auto at = [](const glm::vec3& p, const glm::vec3& q, const glm::vec3& r) {
+        return std::acos(glm::dot(glm::normalize(glm::cross(p, q)), glm::normalize(glm::cross(p, r))));
+      };
+      const float excess = at(a, b, c) + at(b, c, a) + at(c, a, b) - 3.14159265f;
+      worst.addNaive(std::abs(excess / exact - 1));
+    }
+    // Not in its middle: the triangle's own size, 1 / d, squared; and a dozen roundings.
+    result.measure(techniqueOf(method), "light of a triangle 1,000 to 1,000,000 away", worst, 3e-6 + 2e-6, "relative");
+  }
+}
+
 // Ten thousand lamps of a ten-thousandth.
 void manyLights(const Bench& bench, CaseResult& result) {
   const int count = 10000;
@@ -176,6 +210,8 @@ std::vector<HardCase> lightCases() {
       {"G6", "lights with an area, far away",
        "the cosine of a small cone rounds to 1: the light is gone, or its density infinite",
        "a dozen roundings; the sphere itself is exact", true, farBall},
+      {"G12", "small solid angles", "the sum of a spherical triangle's angles less pi cancels to nothing",
+       "a dozen roundings, and the square of size over distance", true, farTriangle},
       {"I21", "ten thousand lights", "a plain sum loses the digits of small terms: n roundings of the total",
        "compensated summation: 2 u, and as much for the factors", false, manyLights,
        "lights are summed plainly in single precision; compensated sums wait for the precision levels"},

@@ -143,6 +143,32 @@ void shareNearTotalReflection(const Bench& bench, CaseResult& result) {
   }
 }
 
+// A thousand reflections between two mirrors that are not quite parallel.
+void thousandReflections(const Bench& bench, CaseResult& result) {
+  const glm::vec3 first(0, 0, 1), second(glm::normalize(glm::dvec3(0.003, 0.001, -1))),
+      d(glm::normalize(glm::dvec3(0.3, 0.2, -0.9)));
+  Vec exact = glm::normalize(Vec(d));
+  glm::vec3 naive = d;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec n = glm::normalize(Vec(i % 2 == 0 ? first : second));
+    exact -= 2 * glm::dot(exact, n) * n;
+    const glm::vec3 m = i % 2 == 0 ? first : second;
+    naive -= 2 * glm::dot(naive, m) * m;
+  }
+  const ProbeAnswer answer =
+      askFunction(bench.device, Function::mirrored, {{{d, 1000}, {first, 0}, {second, 0}, {}}})[0];
+  const Vec got(glm::vec3(answer.a));
+  Worst length, direction;
+  length.addAbsolute(static_cast<double>(glm::length(got)), 1);
+  length.addNaive(std::abs(static_cast<double>(glm::length(Vec(naive))) - 1));
+  const auto turned = static_cast<double>(angleBetween(glm::normalize(got), exact));
+  direction.add(turned, 0, turned);
+  // Scaled before it is normalized: 8 u, as of any unit vector.
+  result.measure("kernel", "length of a direction after a thousand reflections", length, 8 * kU, "absolute");
+  // Each turns it by 4 u at most, at random.
+  result.measure("kernel", "direction after a thousand reflections", direction, 4 * kU * std::sqrt(1000.0), "radians");
+}
+
 // In and out of a hundred slabs of glass: the direction at the end is that at the beginning.
 void hundredSlabs(const Bench& bench, CaseResult& result) {
   // Measured in single precision over the same hundred slabs, three times that.
@@ -188,6 +214,9 @@ std::vector<HardCase> opticsCases() {
        "condition number (critical - angle)^(-1/2) on single-precision input; measured in fp32, doubled", true,
        almostTotalReflection, nullptr,
        "every form shares the condition number; that none reports total reflection is what is held"},
+      {"T22", "a thousand reflections",
+       "directions that are never normalized grow longer, or shorter, with each bounce",
+       "8 u for the length; roundings of 4 u that add up at random for the direction", true, thousandReflections},
       {"T18", "a hundred slabs of glass",
        "each boundary turns a ray by its roundings; after a hundred a way may have drifted",
        "measured in fp32 over the same slabs, times three: (cosine)^-1 of the incidence", true, hundredSlabs, nullptr,

@@ -7,6 +7,7 @@
 #include "accel/bvh.glsl"
 #include "accel/shape.glsl"
 #include "shade/optics.glsl"
+#include "shade/mirror.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = kSpecProbe) const uint specProbe = 0u;
@@ -74,6 +75,17 @@ ProbeAnswer probe_mesh(ProbeArguments p) {
 // Sample a.x of the sequence that a.y scrambles.
 ProbeAnswer probe_samplePlace(ProbeArguments p) {
   return ProbeAnswer(vec4(owenSobol(uint(p.a.x), uint(p.a.y)), 0.0, 0.0), vec4(0.0));
+}
+
+// Direction a, a.w times reflected at normals b and c in turn.
+ProbeAnswer probe_mirrored(ProbeArguments p) {
+  vec3 d = p.a.xyz;
+  int count = int(p.a.w);
+  for (int i = 0; i < count; ++i) {
+    vec3 n = (i & 1) == 0 ? p.b.xyz : p.c.xyz;
+    d = mirrorRay(d, n, n);
+  }
+  return ProbeAnswer(vec4(d, 0.0), vec4(0.0));
 }
 
 void main() {

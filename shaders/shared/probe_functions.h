@@ -42,7 +42,8 @@
   X(6, triangle)              \
   X(7, slabs)                 \
   X(8, mesh)                  \
-  X(9, samplePlace)
+  X(9, samplePlace)           \
+  X(10, mirrored)
 
 CL_SHARED_BEGIN
 struct ProbeArguments {
