@@ -157,6 +157,83 @@ void mapAcne(const Bench& bench, CaseResult& result) {
   }
 }
 
+// A wall that stands on a floor, seen from above; a spot light from the left, 37 degrees off the floor's normal.
+Stage wallOnFloor() {
+  Stage stage;
+  const int material = stage.add(lambert(1));
+  Primitive wall;
+  wall.positions = {{0, -1, -4}, {0, 1, -4}, {0, 1, -3}, {0, -1, -3}};
+  wall.normals.assign(4, {-1, 0, 0});
+  wall.indices = {0, 3, 2, 0, 2, 1};
+  wall.material = stage.add(lambert(0));
+  stage.scene.materials.back().doubleSided = true;
+  stage.addWall(-4.0, material);
+  stage.addMesh(wall);
+  Light spot;
+  spot.type = LightType::spot;
+  spot.classic = ClassicLight{};
+  spot.classic->spotCutoff = 30;
+  spot.worldPosition = {-3, 0, 0};
+  spot.worldDirection = glm::normalize(glm::dvec3(3, 0, -4));
+  stage.scene.lights = {spot};
+  Camera& camera = stage.scene.cameras[0];
+  camera.orthographic = true;
+  camera.xMag = camera.yMag = 1.5;
+  camera.zFar = 10;
+  return stage;
+}
+
+// How far lit and dark pixels of a row that rays and the map tell differently are from the next edge of the rays'
+// shadow, in pixels.
+int farthestFromEdge(const std::vector<bool>& rays, const std::vector<bool>& map) {
+  int farthest = 0;
+  const int width = static_cast<int>(rays.size());
+  for (int x = 0; x < width; ++x) {
+    if (rays[static_cast<std::size_t>(x)] == map[static_cast<std::size_t>(x)]) continue;
+    int reach = 1;
+    const auto differs = [&](int at) {
+      return at >= 0 && at < width && rays[static_cast<std::size_t>(at)] != rays[static_cast<std::size_t>(x)];
+    };
+    while (reach < width && !differs(x - reach) && !differs(x + reach)) ++reach;
+    farthest = std::max(farthest, reach);
+  }
+  return farthest;
+}
+
+void detachedShadows(const Bench& bench, CaseResult& result) {
+  constexpr std::uint32_t kWide = 256;
+  const Stage stage = wallOnFloor();
+  RenderSettings s = settingsFor(Method::phong, kWide, kWide);
+  s.rasterShadows = RasterShadows::rays;
+  const Shot rays = bench.draw(stage.scene, s);
+  s.rasterShadows = RasterShadows::maps;
+  s.shadowMaps.size = 512;
+  s.shadowMaps.filterSize = 1;
+  const Shot map = bench.draw(stage.scene, s);
+  int farthest = 0;
+  std::uint64_t compared = 0;
+  for (std::uint32_t y = kWide / 4; y < 3 * kWide / 4; ++y) {
+    std::vector<bool> a, b;
+    for (std::uint32_t x = 0; x < kWide; ++x) {
+      a.push_back(pixelAt(rays.image, x, y)[0] > 0);
+      b.push_back(pixelAt(map.image, x, y)[0] > 0);
+    }
+    farthest = std::max(farthest, farthestFromEdge(a, b));
+    compared += kWide;
+  }
+  // A texel on the floor, and a pixel: the map covers the cone at the light's distance of 5, slanted by 37 degrees.
+  const double texel = 2 * 5 * std::tan(30 * static_cast<double>(kPiReal) / 180) / 512 / 0.8, pixel = 3.0 / kWide;
+  Worst gap;
+  const double most = farthest * pixel / texel;
+  gap.add(most, 0, most);
+  for (std::uint64_t i = 1; i < compared; ++i) gap.add(0, 0, 0);
+  // A constant offset that keeps floors free of acne up to 85 degrees, along light 37 degrees off the normal.
+  gap.addNaive(std::tan(85 * static_cast<double>(kPiReal) / 180) * 0.6);
+  result.measure("phong", "gap between a wall and its shadow", gap, 3, "texels");
+  result.show("by rays", rays.image);
+  result.show("by a map of 512 texels", map.image);
+}
+
 void lightsAtBothEnds(const Bench& bench, CaseResult& result) {
   for (const Method method : kRasterAndRays) {
     std::uint64_t dark = 0, lit = 0;
@@ -190,6 +267,9 @@ std::vector<HardCase> shadowCases() {
        "offsets at either end of a shadow ray put the surface or the light "
        "on the wrong side",
        "nothing stands between: none", true, lightsAtBothEnds},
+      {"R14", "shadows that come off their objects",
+       "the offset that keeps tilted floors free of stripes moves every shadow away",
+       "a texel of the map, one of its offset along the light, and the pixel's own", true, detachedShadows},
       {"R13", "shadow maps on tilted floors",
        "a texel's depth is that of its middle: half of a tilted floor lies below it",
        "offset of texel times tan(angle), widened by the filter: none up to 85 degrees", true, mapAcne},

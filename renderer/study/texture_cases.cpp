@@ -2,6 +2,7 @@
 #include "scene/mesh_repair.h"
 #include "study/cases.h"
 #include "study/pictures.h"
+#include "study/probe.h"
 
 namespace crosslight::study {
 namespace {
@@ -106,6 +107,32 @@ void mirroredCoordinates(const Bench& bench, CaseResult& result) {
   }
 }
 
+// A sphere's pole in the middle of the picture; rays only: raster draws a mesh with coordinates of its own.
+void poles(const Bench& bench, CaseResult& result) {
+  Stage stage;
+  stage.addShape(ShapeKind::sphere, {1, 0, 0, 0}, {0, 0, -3}, stage.add(emitter(1)));
+  glm::dmat4& place = stage.scene.shapes[0].worldFromObject;
+  place[0] = {1, 0, 0, 0};
+  place[1] = {0, 0, 1, 0};  // its axis points at the camera
+  place[2] = {0, -1, 0, 0};
+  stage.scene.cameras[0].yFov = 0.6;
+  RenderSettings s = settingsFor(Method::whitted, kSize + 1, kSize + 1);
+  s.aovs = {"uv"};
+  const Shot shot = bench.draw(stage.scene, s);
+  std::uint64_t outside = 0;
+  for (std::size_t i = 0; i < shot.image.pixels(); ++i) {
+    const glm::dvec3 uv = vectorAt(shot.image, "uv", i);
+    outside += !(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
+  }
+  const float beyond = askOperation(bench.device, Operation::arcCosine, {{std::nextafter(1.0f, 2.0f), 0, 0}})[0];
+  Worst pole;
+  pole.addAbsolute(vectorAt(shot.image, "uv", shot.image.pixels() / 2).y, 0);
+  pole.addNaive(std::abs(static_cast<double>(beyond)));
+  result.count("whitted", "texture coordinates of a sphere outside of [0, 1]", outside, shot.image.pixels());
+  // Vulkan: atan to 4096 ulp, acos by it.
+  result.measure("whitted", "v at the pole", pole, 4.9e-4, "absolute");
+}
+
 }  // namespace
 
 std::vector<HardCase> textureCases() {
@@ -116,6 +143,8 @@ std::vector<HardCase> textureCases() {
       {"R20", "repetitions far from zero, and just below it",
        "the fraction of -1e-9 rounds to 1: an index beyond the texture", "the column by the floor, exactly", true,
        repeatedFarAway},
+      {"X4", "poles of spheres", "acos of what rounds to just above 1 is NaN, and the longitude of a pole atan(0, 0)",
+       "4096 ulp of atan, by Vulkan", true, poles},
       {"X2", "mirrored texture coordinates", "without the sign of their handedness bumps become dents",
        "the picture mirrored back; "
        "positions and tangents are exact mirrors",
