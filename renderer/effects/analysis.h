@@ -1,6 +1,7 @@
 // What the files of rules share: the scene, who uses what in it, and the plan that they write. Internal to this room.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "effects/uses.h"
 
 namespace crosslight {
+
+std::string quoted(const std::string& kind, const std::string& name, std::size_t index);
 
 struct Analysis {
   Analysis(const Scene& s, const RenderSettings& set);
@@ -24,6 +27,10 @@ struct Analysis {
   // What is not called for: nobody would, or only what no ray meets.
   std::string nobody(const MaterialTest& test, const std::string& what) const;
   void addByMaterial(const MaterialRule& rule);
+  // A row of a list of kinds: on if one of `objects` passes, named as `kind` and its name.
+  template <typename Object, typename Test>
+  void addFirst(std::uint32_t Plan::*bits, std::uint32_t value, const char* name, const char* kind,
+                const std::vector<Object>& objects, const Test& test);
 
   const Scene& scene;
   const RenderSettings& settings;
@@ -33,7 +40,15 @@ struct Analysis {
   std::vector<LightVerdict> lightShadows;
 };
 
-std::string quoted(const std::string& kind, const std::string& name, std::size_t index);
+template <typename Object, typename Test>
+void Analysis::addFirst(std::uint32_t Plan::*bits, std::uint32_t value, const char* name, const char* kind,
+                        const std::vector<Object>& objects, const Test& test) {
+  const auto who = std::find_if(objects.begin(), objects.end(), test);
+  const bool on = who != objects.end();
+  const auto index = static_cast<std::size_t>(who - objects.begin());
+  draft.addListed(bits, value, name, on,
+                  on ? "used by " + quoted(kind, who->name, index) : "nothing in the scene uses it");
+}
 
 // In this order: later ones ask what earlier ones found.
 void judgeSurfaces(Analysis& analysis);  // models, shapes, meshes, what materials call for by themselves

@@ -11,12 +11,7 @@ namespace {
 
 void types(Analysis& a) {
   const auto add = [&](std::uint32_t value, const char* name, LightType type) {
-    const auto& lights = a.scene.lights;
-    const auto who = std::find_if(lights.begin(), lights.end(), [&](const Light& l) { return l.type == type; });
-    const bool on = who != lights.end();
-    const auto index = static_cast<std::size_t>(who - lights.begin());
-    a.draft.addListed(&Plan::lights, value, name, on,
-                      on ? "used by " + quoted("light", who->name, index) : "nothing in the scene uses it");
+    a.addFirst(&Plan::lights, value, name, "light", a.scene.lights, [&](const Light& l) { return l.type == type; });
   };
 #define CL_ROW(value, name, ...) add(value, #name, LightType::name);
   CL_LIGHT_TYPES(CL_ROW)

@@ -22,12 +22,8 @@ void models(Analysis& a) {
 
 void shapeKinds(Analysis& a) {
   const auto add = [&](std::uint32_t value, const char* name, ShapeKind kind) {
-    const auto& shapes = a.scene.shapes;
-    const auto who = std::find_if(shapes.begin(), shapes.end(), [&](const ShapeInstance& s) { return s.kind == kind; });
-    const bool on = a.traced && who != shapes.end();
-    const auto index = static_cast<std::size_t>(who - shapes.begin());
-    a.draft.addListed(&Plan::shapes, value, name, on,
-                      on ? "used by " + quoted("node", who->name, index) : "nothing in the scene uses it");
+    a.addFirst(&Plan::shapes, value, name, "node", a.scene.shapes,
+               [&](const ShapeInstance& s) { return a.traced && s.kind == kind; });
   };
 #define CL_ROW(value, name, ...) add(value, #name, ShapeKind::name);
   CL_SHAPE_KINDS(CL_ROW)
