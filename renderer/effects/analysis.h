@@ -15,7 +15,7 @@ namespace crosslight {
 std::string quoted(const std::string& kind, const std::string& name, std::size_t index);
 
 struct Analysis {
-  Analysis(const Scene& s, const RenderSettings& set);
+  Analysis(const Scene& s, const RenderSettings& set, InView inView);
 
   using MaterialTest = std::function<bool(const Material&)>;
 

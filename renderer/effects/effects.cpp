@@ -28,8 +28,8 @@ std::string quoted(const std::string& kind, const std::string& name, std::size_t
   return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
 }
 
-Analysis::Analysis(const Scene& s, const RenderSettings& set)
-    : scene(s), settings(set), traced(set.method == Method::whitted), uses(usesOf(s, set)), draft(set) {}
+Analysis::Analysis(const Scene& s, const RenderSettings& set, InView inView)
+    : scene(s), settings(set), traced(set.method == Method::whitted), uses(usesOf(s, set, inView)), draft(set) {}
 
 const Material& Analysis::materialOf(const SurfaceUse& use) const {
   return scene.materials[static_cast<std::size_t>(use.material)];
@@ -71,8 +71,8 @@ bool rasterSendsRays(const Plan& plan, const RenderSettings& settings) {
 
 bool isArea(const Light& light) { return (shared::kAreaLightTypes >> static_cast<std::uint32_t>(light.type)) & 1u; }
 
-Plan makePlan(const Scene& scene, const RenderSettings& settings) {
-  Analysis analysis(scene, settings);
+Plan makePlan(const Scene& scene, const RenderSettings& settings, InView inView) {
+  Analysis analysis(scene, settings, inView);
   judgeSurfaces(analysis);
   judgeLights(analysis);
   judgeRays(analysis);

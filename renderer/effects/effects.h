@@ -47,7 +47,10 @@ struct Plan {
 // Whether a raster method asks for its shadows by rays: then the scene needs trees.
 bool rasterSendsRays(const Plan& plan, const RenderSettings& settings);
 
-Plan makePlan(const Scene& scene, const RenderSettings& settings);
+// What counts as in view: what the settings' camera sees, or all, for a camera that turns after the plan is made.
+enum class InView { ofCamera, all };
+
+Plan makePlan(const Scene& scene, const RenderSettings& settings, InView inView = InView::ofCamera);
 
 // It has a surface of its own that radiates.
 bool isArea(const Light& light);

@@ -68,9 +68,10 @@ void markMet(const Scene& scene, const RenderSettings& s, bool traced, std::vect
 
 }  // namespace
 
-std::vector<SurfaceUse> usesOf(const Scene& scene, const RenderSettings& settings) {
+std::vector<SurfaceUse> usesOf(const Scene& scene, const RenderSettings& settings, InView inView) {
   const bool traced = settings.method == Method::whitted;
-  const View view(scene.cameras[static_cast<std::size_t>(settings.camera)], settings);
+  const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
+  const View view = inView == InView::all ? View() : View(camera, settings);
   std::vector<SurfaceUse> uses;
   addMeshes(scene, view, traced, uses);
   addShapes(scene, view, uses);

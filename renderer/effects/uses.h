@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/effects.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -24,7 +25,7 @@ struct SurfaceUse {
 
 // By material, and for one material in the order of the scene. Rays draw analytic shapes as such, raster the meshes in
 // their place. What is out of view is met by mirrored and refracted rays, and where it lets light pass by shadow rays.
-std::vector<SurfaceUse> usesOf(const Scene& scene, const RenderSettings& settings);
+std::vector<SurfaceUse> usesOf(const Scene& scene, const RenderSettings& settings, InView inView = InView::ofCamera);
 
 // "on mesh 'ball'", "on sphere 'lens'"
 std::string placeOf(const Scene& scene, const SurfaceUse& use);

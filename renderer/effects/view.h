@@ -10,6 +10,7 @@ namespace crosslight {
 
 class View {
  public:
+  View() = default;  // of everything
   View(const Camera& camera, const RenderSettings& settings);
 
   // `box` in the object's own space. An empty box is out of view.
@@ -21,9 +22,9 @@ class View {
     double offset;
   };
 
-  glm::dmat4 cameraFromWorld_;
-  std::array<Plane, 5> planes_;
-  int planeCount_;
+  glm::dmat4 cameraFromWorld_{1.0};
+  std::array<Plane, 5> planes_ = {};
+  int planeCount_ = 0;
 };
 
 // The eight corners, in the world.

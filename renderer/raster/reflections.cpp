@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -128,23 +127,12 @@ void Reflections::makeRecords() {
   records_ = gpu::Buffer::of(device_, "reflectors", records, gpu::useStorage);
 }
 
-// One plan for all faces of a probe: their cameras turn after it is made.
-static Plan planOfAnyView(Scene& scene, const RenderSettings& settings) {
-  Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
-  const Camera turned = camera;
-  camera.orthographic = true;  // of an endless width: all is in view
-  camera.yMag = std::numeric_limits<double>::infinity();
-  Plan plan = makePlan(scene, settings);
-  camera = turned;
-  return plan;
-}
-
 std::unique_ptr<Reflections::View> Reflections::viewOf(Scene scene, RenderSettings settings,
                                                        std::uint64_t pixels) const {
   auto view = std::make_unique<View>();
   view->scene = std::move(scene);
   view->settings = std::move(settings);
-  view->plan = planOfAnyView(view->scene, view->settings);
+  view->plan = makePlan(view->scene, view->settings, InView::all);  // for all faces of a probe
   FlatScene flat = flattenScene(view->scene, renderOrigin(cameraOf(view->scene, view->settings)), false,
                                 view->plan.has(Effect::triangles));
   FlatBvh bvh;
