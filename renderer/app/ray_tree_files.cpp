@@ -73,7 +73,7 @@ glm::uvec2 rayTreePixelOf(const std::string& text, std::uint32_t width, std::uin
 }
 
 const char* nameOf(RayKind kind) {
-  constexpr const char* kNames[] = {"primary", "reflection", "refraction", "passThrough"};
+  constexpr const char* kNames[] = {"primary", "reflection", "refraction", "passThrough", "passThrough"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

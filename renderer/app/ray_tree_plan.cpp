@@ -16,7 +16,7 @@ constexpr std::size_t kMostLightRays = 128;
 }  // namespace
 
 const char* colorOf(RayKind kind) {
-  constexpr const char* kColors[] = {"#303030", "#c2570c", "#1565c0", "#6b7280"};
+  constexpr const char* kColors[] = {"#303030", "#c2570c", "#1565c0", "#6b7280", "#6b7280"};
   return kColors[static_cast<std::size_t>(kind)];
 }
 

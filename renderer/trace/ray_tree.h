@@ -12,7 +12,8 @@
 
 namespace crosslight {
 
-enum class RayKind { primary, reflection, refraction, passThrough };
+// Straight on are passThrough, from the camera's ray, and onward, from another.
+enum class RayKind { primary, reflection, refraction, passThrough, onward };
 
 struct RayTreeLight {
   glm::vec3 value{0.0f};  // what the light brings to the surface, within `own` before opacity

@@ -167,8 +167,7 @@ struct RayNode {
   float travelled;    // scene units through fog before the ray's origin: of the rays that it goes straight on from
   uint reflected;     // node of the reflected child, or kNoRayNode
   uint transmitted;   // node of the refracted or straight-through child, or kNoRayNode
-  uint seenDirectly;  // bit 31: only straight-through surfaces lie between the camera and the ray, with fog only; the
-                      // others: bits of the length of the light's way from the camera to the ray's origin, with mipmaps
+  float path;         // with mipmaps: length of the light's way from the camera to the ray's origin
   uint transmittedCount;  // with dispersion: 1, or 3 nodes from `transmitted` on, for red, green and blue
 };
 CL_SIZE(RayNode, 48)
@@ -178,7 +177,8 @@ CL_CONST uint kTileSize = 8u;  // pixels: camera rays are listed tile by tile
 CL_CONST uint kRayPrimary = 0u;
 CL_CONST uint kRayReflection = 1u;
 CL_CONST uint kRayRefraction = 2u;
-CL_CONST uint kRayPassThrough = 3u;
+CL_CONST uint kRayPassThrough = 3u;  // straight on from the camera
+CL_CONST uint kRayOnward = 4u;       // straight on from a mirrored or refracted ray
 
 struct HitRecord {
   float t;         // in units of the ray's direction

@@ -9,9 +9,8 @@ struct NewRay {
   uint kind;
   uint medium;
   float travelled;  // RayNode has it
-  bool seenDirectly;
-  uvec4 media;  // with nestedMedia
-  float path;  // RayNode has it
+  uvec4 media;      // with nestedMedia
+  float path;       // RayNode has it
 };
 
 bool carriesLight(vec3 weight) { return any(greaterThan(weight, vec3(0.0))); }
@@ -43,8 +42,7 @@ uint storeRay(uint slot, RayRecord parent, HitSurface h, NewRay ray) {
                          parent.depth + 1u);
   nodes[slot].weight = ray.weight;
   if (CL_HAS(fog)) nodes[slot].travelled = ray.travelled;
-  if (CL_HAS(fog) || CL_HAS(mipmaps))
-    nodes[slot].seenDirectly = floatBitsToUint(ray.path) | (ray.seenDirectly ? 0x80000000u : 0u);
+  if (CL_HAS(mipmaps)) nodes[slot].path = ray.path;
   if (CL_HAS(nestedMedia)) mediaOfNodes[slot] = ray.media;
   return slot;
 }
@@ -164,11 +162,10 @@ Children spawnChildren(RayRecord ray, HitSurface h, SurfacePoint s, SegmentFog f
     else passed = throughWeight;
   }
   bool bothSides = bent || (nestsMedia() && ray.medium != kNoRayNode);  // a body is met from inside
-  NewRay through = NewRay(onward, throughWeight, bothSides ? kRayRefraction : kRayPassThrough, bent ? inside : ray.medium,
-                          bent ? 0.0 : fog.distance, !bent && fog.seenDirectly,
-                          bent && media.bounds ? media.at.media : media.here, path);
-  NewRay mirrored = NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, false, media.here,
-                           path);
+  uint straightOn = isSeenDirectly(ray.kind) ? kRayPassThrough : kRayOnward;
+  NewRay through = NewRay(onward, throughWeight, bothSides ? kRayRefraction : straightOn, bent ? inside : ray.medium,
+                          bent ? 0.0 : fog.distance, bent && media.bounds ? media.at.media : media.here, path);
+  NewRay mirrored = NewRay(mirrorRay(d, n, ng), mirrorWeight, kRayReflection, ray.medium, 0.0, media.here, path);
   if (CL_HAS(dispersion) && (frame.optics & kOpticsDispersion) != 0u) {
     vec3 channels = channelsOf(ray, pushed.firstNode + shaded_);
     mirrored.weight *= channels;

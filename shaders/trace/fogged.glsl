@@ -6,23 +6,17 @@
 #include "shade/fog.glsl"
 
 struct SegmentFog {
-  float distance;      // up to the hit, from where the segment began
-  bool seenDirectly;
+  float distance;  // up to the hit, from where the segment began
   Fog fog;
 };
 
 // Eye depth is for what the camera sees directly; what mirrors show has none, and goes by the way of the light.
 SegmentFog fogAtHit(uint node, RayRecord ray, float t, bool insideBody) {
-  bool first = !kBranches || ray.kind == kRayPrimary;
-  bool direct = first;
   float before = 0.0;
-  if (kBranches && !first) {
-    before = nodes[node].travelled;
-    direct = (nodes[node].seenDirectly & 0x80000000u) != 0u;
-  }
-  float along = direct && frame.fogByDepth != 0u ? dot(ray.direction, frame.cameraForward) : safeLength(ray.direction);
+  if (kBranches && ray.kind != kRayPrimary) before = nodes[node].travelled;
+  float along = isSeenDirectly(ray.kind) && frame.fogByDepth != 0u ? dot(ray.direction, frame.cameraForward) : safeLength(ray.direction);
   float distance = before + t * along;
   Fog fog = fogOver(distance);
-  return SegmentFog(distance, direct, insideBody ? Fog(1.0, 0.0) : fog);
+  return SegmentFog(distance, insideBody ? Fog(1.0, 0.0) : fog);
 }
 #endif

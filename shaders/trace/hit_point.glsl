@@ -3,9 +3,11 @@
 #define CROSSLIGHT_HIT_POINT_GLSL
 #include "trace/viewer.glsl"
 
-// Length of a ray's way to its hit: camera rays are told by their depth along the view.
+// Length of a ray's way to its hit: of what the camera sees directly the depth along the view, as in raster, else that
+// of the light's way.
 float wayOf(RayRecord ray, float t) {
-  return !kBranches || ray.kind == kRayPrimary ? t : t * length(ray.direction);
+  if (!kBranches || ray.kind == kRayPrimary) return t;
+  return t * (isSeenDirectly(ray.kind) ? dot(ray.direction, frame.cameraForward) : length(ray.direction));
 }
 
 // `path`: length of the light's way from the camera to the hit.

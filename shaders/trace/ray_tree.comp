@@ -73,7 +73,8 @@ void main() {
   }
   if (hit.primitive != kNoHit) {
     HitSurface h = surfaceOfHit(hit, rayOf(ray), !goesStraight(ray.kind));
-    float before = CL_HAS(mipmaps) && kBranches && ray.kind != kRayPrimary ? uintBitsToFloat(texelFetch(nodeTexels, int(3u * node + 2u)).z & 0x7fffffffu) : 0.0;
+    bool sent = CL_HAS(mipmaps) && kBranches && ray.kind != kRayPrimary;
+    float before = sent ? nodeTexel(node, 2u).z : 0.0;
     SurfacePoint s = pointOfHit(h, ray, before + wayOf(ray, hit.t));
     r.t = hit.t;
     r.position = s.position;

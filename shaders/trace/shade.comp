@@ -68,7 +68,7 @@ bool isInsideBody(RayRecord ray, HitSurface h) {
 
 // Length of the light's way from the camera to the hit.
 float pathTo(uint node, RayRecord ray, float t) {
-  float before = kBranches && ray.kind != kRayPrimary ? uintBitsToFloat(nodes[node].seenDirectly & 0x7fffffffu) : 0.0;
+  float before = kBranches && ray.kind != kRayPrimary ? nodes[node].path : 0.0;
   return before + wayOf(ray, t);
 }
 
@@ -87,7 +87,7 @@ Shaded shadeHit(RayRecord ray, HitRecord hit, uint pixel) {
   if (kWritesAovs && ray.kind == kRayPrimary) recordAov(pixel, h, s, parts, firstBatch);
   float opacity = CL_HAS(transparency) ? s.opacity : 1.0;
   Shaded shaded = Shaded(sumOf(parts) * opacity, opacity, vec3(1.0), Children(kNoRayNode, kNoRayNode, 1u));
-  SegmentFog fog = SegmentFog(0.0, true, Fog(1.0, 0.0));
+  SegmentFog fog = SegmentFog(0.0, Fog(1.0, 0.0));
   if (CL_HAS(fog)) fog = fogAtHit(pushed.firstNode + shaded_, ray, hit.t, isInsideBody(ray, h));
   // What a body scatters is added on the way: smoke.comp takes away what it absorbs, too.
   if (CL_HAS(absorption) && kBranches && ray.medium != kNoRayNode &&

@@ -38,8 +38,11 @@ RayRecord rayRecordOf(uint node) {
                    c.z, c.w);
 }
 
-// What the camera sees directly or through surfaces that do not bend light: single-sided surfaces have no back there,
-// as in the rasteriser. Mirrored and refracted rays meet bodies from inside too, and so does a camera within one.
+// By the camera, or through surfaces that do not bend light.
+bool isSeenDirectly(uint kind) { return !kBranches || kind == kRayPrimary || kind == kRayPassThrough; }
+
+// What the camera sees directly: single-sided surfaces have no back there, as in the rasteriser. Mirrored and refracted
+// rays meet bodies from inside too, and so does a camera within one.
 bool goesStraight(uint kind) {
   bool camera = !CL_HAS(nestedMedia) || frame.cameraMedium == kNoRayNode;
   return (kind == kRayPrimary && camera) || kind == kRayPassThrough;

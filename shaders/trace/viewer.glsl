@@ -1,8 +1,8 @@
 #ifndef CROSSLIGHT_VIEWER_GLSL
 #define CROSSLIGHT_VIEWER_GLSL
-// The viewer of a secondary ray is where it comes from; primary rays share the camera's rule with the rasteriser.
+// The viewer of mirrored and refracted rays is where they come from; what the camera sees directly shares its rule with
+// the rasteriser.
 vec3 towardsViewer(RayRecord ray, vec3 renderPos) {
-  bool camera = !kBranches || ray.kind == kRayPrimary;
-  return camera ? viewDirection(renderPos) : -safeNormalize(ray.direction, vec3(0.0));
+  return isSeenDirectly(ray.kind) ? viewDirection(renderPos) : -safeNormalize(ray.direction, vec3(0.0));
 }
 #endif
