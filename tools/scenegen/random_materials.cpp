@@ -150,6 +150,11 @@ void RandomMaterials::addTransmission(Json& material) {
   if (dice_.oneIn(2)) {
     volume["attenuationColor"] = color(0.1, 1.0);
     volume["attenuationDistance"] = dice_.pick({0.05, 1.0, 20.0});
+    if (dice_.oneIn(2)) {
+      Json& scatter = extensions["KHR_materials_volume_scatter"];
+      scatter["multiscatterColor"] = color(0.0, 1.0);
+      scatter["scatterAnisotropy"] = dice_.orEnd(-0.9, 0.9);
+    }
   }
   if (dice_.oneIn(3)) extensions["KHR_materials_dispersion"]["dispersion"] = dice_.pick({0.3, 2.0});
   if (dice_.oneIn(3)) extensions["CROSSLIGHT_materials_dielectric"]["priority"] = dice_.below(4);
