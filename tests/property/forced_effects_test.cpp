@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "effects/effects.h"
 #include "effects/forced.h"
-#include "support/render_fixture.h"
+#include "support/effect_scenes.h"
 
 namespace crosslight::testing {
 namespace {
@@ -33,33 +33,12 @@ RenderSettings settingsThatAsk(Method method) {
   return s;
 }
 
-// What no feature scene has: a picture in the place of another one, and a surface that lights others.
-Scene textured(TextureUse Material::*use) {
-  Scene scene = sceneNamed("feature/texture");
-  for (Material& m : scene.materials) {
-    const TextureUse picture = m.baseColorTexture;
-    m = Material();
-    m.model = IlluminationModel::cookTorrance;
-    m.emissiveFactor = glm::vec3(0.5f);
-    m.baseColorTexture = picture;
-    m.*use = picture;
-  }
-  scene.atmosphere.ambient = glm::vec3(0.5f);
-  return scene;
-}
-
-Scene glowing() {
-  Scene scene = loadScene(scenesFolder() / "feature/emission.gltf");
-  completeScene(scene, EmissiveLights::on);
-  return scene;
-}
-
 const std::vector<std::pair<std::string, Scene>>& featureScenes() {
   static const auto scenes = [] {
     std::vector<std::pair<std::string, Scene>> all;
-    all.emplace_back("metallic-roughness texture", textured(&Material::metallicRoughnessTexture));
-    all.emplace_back("occlusion texture", textured(&Material::occlusionTexture));
-    all.emplace_back("emissive texture", textured(&Material::emissiveTexture));
+    all.emplace_back("metallic-roughness texture", textured<&Material::metallicRoughnessTexture>());
+    all.emplace_back("occlusion texture", textured<&Material::occlusionTexture>());
+    all.emplace_back("emissive texture", textured<&Material::emissiveTexture>());
     all.emplace_back("glowing surface", glowing());
     for (const std::string& name : allSceneNames()) {
       if (name.rfind("feature/", 0) == 0) all.emplace_back(name, sceneNamed(name));

@@ -5,7 +5,7 @@
 
 #include "effects/effects.h"
 #include "effects/forced.h"
-#include "support/render_fixture.h"
+#include "support/effect_scenes.h"
 
 namespace crosslight::testing {
 namespace {
@@ -22,27 +22,6 @@ struct Row {
   Make make = nullptr;   // instead of the scene's file
   Ask ask = nullptr;     // settings that it takes
 };
-
-// One picture in the place of another one.
-template <TextureUse Material::*use>
-Scene textured() {
-  Scene scene = sceneNamed("feature/texture");
-  for (Material& m : scene.materials) {
-    const TextureUse picture = m.baseColorTexture;
-    m = Material();
-    m.emissiveFactor = glm::vec3(0.5f);
-    m.baseColorTexture = picture;
-    m.*use = picture;
-  }
-  scene.atmosphere.ambient = glm::vec3(0.5f);
-  return scene;
-}
-
-Scene glowing() {
-  Scene scene = loadScene(scenesFolder() / "feature/emission.gltf");
-  completeScene(scene, EmissiveLights::on);
-  return scene;
-}
 
 Scene withoutMeshes() {
   Scene scene = sceneNamed("feature/shapes");
@@ -217,7 +196,7 @@ TEST(WorkNotDone, passesOfWhatIsOffAreMissing) {
   EXPECT_TRUE(passes("feature/lambert", kRays).contains("shapes"));
 }
 
-// Lists on the device of what is off are placeholders: the full plan of the same scene holds more.
+// Lists on the device of what is off have one element: the full plan of the same scene holds more.
 TEST(WorkNotDone, memoryOfWhatIsOffIsNotTaken) {
   const Scene scene = sceneNamed("feature/lambert");
   gpu::DeviceOptions options;
