@@ -124,8 +124,8 @@ TEST(ClosedForms, aPrismBendsLeastWhereTheWayThroughItIsSymmetric) {
     const double least = deviation(0);
     // The index is a float: 2^-25 of it times 2 tan(i).
     EXPECT_NEAR(least, row.deviation * kDegree, kBent) << row.apex << ' ' << row.index;
-    EXPECT_GT(deviation(0.05), least + 1e-4);
-    EXPECT_GT(deviation(-0.05), least + 1e-4);
+    EXPECT_GT(deviation(0.05), least + kBent);
+    EXPECT_GT(deviation(-0.05), least + kBent);
   }
 }
 
@@ -160,8 +160,8 @@ TEST(ClosedForms, aDropMakesTheRainbow) {
   };
   const double primary = bow(.860835059694948);
   EXPECT_NEAR(primary, 42.0781073802436 * kDegree, 2 * kBent);
-  EXPECT_LT(bow(.84), primary - 1e-4);
-  EXPECT_LT(bow(.88), primary - 1e-4);
+  EXPECT_LT(bow(.84), primary - 2 * kBent);
+  EXPECT_LT(bow(.88), primary - 2 * kBent);
 }
 
 // Mean over the disc: 2 / (3 pi) (sin a + (pi - a) cos a), a the angle between the light and the viewer.
@@ -210,11 +210,12 @@ TEST(ClosedForms, lightOfSeveralLampsAddsUp) {
       const auto part = render(device(), one, s).image.picture().samples;
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
     }
+    constexpr double kRounding = 16 * 0x1p-24;  // a dozen sums and products of values around 1
     double worst = 0;
     for (std::size_t i = 0; i < sum.size(); ++i) {
       if (i % 4 != 3) worst = std::max(worst, std::abs(sum[i] - all[i]));
     }
-    EXPECT_LT(worst, 1e-6) << nameOf(method);  // a few roundings of values around 1
+    EXPECT_LT(worst, kRounding) << nameOf(method);
     EXPECT_GT(*std::max_element(all.begin(), all.end()), 0.2f);
   }
 }

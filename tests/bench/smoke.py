@@ -28,6 +28,7 @@ ALWAYS = {"bvh": {("refit", "medium"), ("load", "medium")}, "growth": {("threads
 CONTESTS = {"knot": {"povray", "tachyon", "cycles"}, "spheres": {"povray"}, "knotRaster": {"f3d"}, "teapot": {"f3d"}}
 PEER_OF = {"bvh": "embree", "rays": "embree", "raster": "osmesa"}
 PARTS = "instance device pipelines upload render readback encode process".split()
+ROUNDING = 1e-12  # of the exponential of a mean of logarithms, in double
 
 
 def demand(condition, text):
@@ -99,7 +100,7 @@ def check_suite(record, suite, named):
         gains = {c["name"]: c for c in record["checks"] if c["name"].endswith("Gain")}
         demand(len(gains) == 6, f"gains {list(gains)}")
         for gain in gains.values():
-            demand(0 < gain["least"] <= gain["geometricMean"] * (1 + 1e-9), f"{gain}")
+            demand(0 < gain["least"] <= gain["geometricMean"] * (1 + ROUNDING), f"{gain}")
     if suite == "start":
         for part in PARTS:
             demand(f"start.cold.{part}" in named and f"start.warm.{part}" in named, f"start lacks {part}")
