@@ -77,28 +77,44 @@ void smoke(GltfBuilder& gltf) {
   addSmokyStage(gltf, std::move(smoke));
 }
 
-// Puffs: a sum of Gaussians in a grid of cells.
+// Puffs that rise from a pot, each wider and thinner than the one below: a sum of Gaussians.
+float plumeDensity(const dvec3& p) {
+  constexpr int kPuffs = 14;
+  double density = 0.0;
+  for (int k = 0; k < kPuffs; ++k) {
+    const double height = static_cast<double>(k) / (kPuffs - 1), radius = 0.10 + 0.26 * height;
+    const dvec3 puff(0.35 * height * std::sin(5.0 * height) + 0.12 * std::sin(9.1 * k), 0.75 + 1.75 * height,
+                     0.10 * std::cos(7.3 * k));
+    const dvec3 d = (p - puff) / radius;
+    density += 0.35 / (0.3 + height) * std::exp(-2.0 * glm::dot(d, d));
+  }
+  return static_cast<float>(density);
+}
+
+// The lamp stands behind the smoke, which scatters forwards.
 void smokeGrid(GltfBuilder& gltf) {
-  constexpr int kX = 20, kY = 16, kZ = 12;
+  constexpr int kX = 24, kY = 30, kZ = 16;
+  const dvec3 center(0.0, 1.7, 0.0), size(2.4, 2.4, 1.6);
   std::vector<float> densities;
   for (int z = 0; z < kZ; ++z) {
     for (int y = 0; y < kY; ++y) {
-      for (int x = 0; x < kX; ++x) {
-        const dvec3 p((x + 0.5) / kX, (y + 0.5) / kY, (z + 0.5) / kZ);
-        double density = 0.0;
-        for (const dvec3& puff : {dvec3(0.3, 0.35, 0.5), dvec3(0.55, 0.6, 0.5), dvec3(0.75, 0.75, 0.45)}) {
-          const dvec3 d = p - puff;
-          density += std::exp(-(d.x * d.x + d.y * d.y + d.z * d.z) / 0.03);
-        }
-        densities.push_back(static_cast<float>(density));
-      }
+      for (int x = 0; x < kX; ++x)
+        densities.push_back(
+            plumeDensity(center + size * (dvec3((x + 0.5) / kX, (y + 0.5) / kY, (z + 0.5) / kZ) - 0.5)));
     }
   }
-  Json smoke = smokeOf("box", 0.3, 1.4, 0.0);
-  smoke["center"] = listOf({0.0, 1.2, 0.0});
-  smoke["size"] = listOf({4.0, 2.4, 2.0});
+  addFloor(gltf, {0.30, 0.30, 0.32});
+  const int clay = gltf.addMaterial(paint("clay", {0.65, 0.28, 0.16}));
+  gltf.addRoot(shapeNode(gltf, "pot", {.kind = ShapeKind::cylinder, .params = {0.42, 0.6, 0.0}, .segments = 40}, clay,
+                         {0.0, 0.3, 0.0}));
+  addPointLight(gltf, "lamp", {1.9, 2.9, -1.7}, {.color = dvec3(15.0, 14.0, 12.0), .attenuation = {0.0, 0.0, 0.5}});
+  addPointLight(gltf, "fill", {-3.0, 3.0, 3.0}, {.color = dvec3(1.6, 2.0, 2.8), .attenuation = {0.0, 0.0, 0.5}});
+  addCamera(gltf, {.eye = {0.0, 1.9, 5.6}, .target = {0.0, 1.35, 0.0}, .yFovDegrees = 32.0});
+  Json smoke = smokeOf("box", 0.1, 6.0, 0.45);
+  smoke["center"] = listOf(center);
+  smoke["size"] = listOf(size);
   smoke["grid"] = {{"cellsX", kX}, {"cellsY", kY}, {"cellsZ", kZ}, {"densities", gltf.addScalars(densities)}};
-  addSmokyStage(gltf, std::move(smoke));
+  gltf.setAtmosphere({{"ambient", listOf(dvec3(0.05))}, {"background", listOf({0.02, 0.03, 0.05})}, {"smoke", smoke}});
 }
 
 Json bodyMaterial(const char* name, const dvec3& tint, double ior, int priority) {
