@@ -53,7 +53,10 @@ void add(Found found) {
 // One loop for all walks: Mesa 22.3's llvmpipe leaves an outer loop around them after one round.
 void main() {
   uint head = kNoLayer;
-  if (hasList() && layerCounts[kLayersTooMany] == 0u) head = layerHeads[layerPlace()];
+  // llvmpipe runs lanes that the picture does not have, and gives them zeros for what they read: a list that begins with
+  // the fragment 0, of which 0 is the next. A count of 0 tells them.
+  bool kept = layerCounts[kLayersTooMany] == 0u && layerCounts[kLayersWanted] > 0u;
+  if (hasList() && kept) head = layerHeads[layerPlace()];
   Found last = kNearest;
   uint at = head, passes = 0u;
   forget();
