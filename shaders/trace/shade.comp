@@ -59,11 +59,12 @@ vec3 absorbed(uint medium, float distance) {
   return m.attenuationDistance > 0.0 ? remaining : vec3(1.0);
 }
 
-// The way to the hit led through a refracting body.
+// The way to the hit led through a refracting body: the ray knows, whether or not what it hits refracts, or its own
+// surface does.
 bool isInsideBody(RayRecord ray, HitSurface h) {
   const uint kBody = kMaterialRefracts | kMaterialThin;
   bool leavesBody = !h.at.frontFacing && (materialOf(h.at.materialId).flags & kBody) == kMaterialRefracts;
-  return CL_HAS(refraction) && (ray.medium != kNoRayNode || leavesBody);
+  return ray.medium != kNoRayNode || (CL_HAS(refraction) && leavesBody);
 }
 
 // Length of the light's way from the camera to the hit.

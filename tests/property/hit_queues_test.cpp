@@ -124,6 +124,23 @@ TEST(HitClasses, moreKindsThanClassesShareTheLast) {
   expectSameLayers(with.image, render(device(), scene, settings).image);
 }
 
+// The kernel of what is within a body does not refract: there is no fog before it all the same.
+TEST(HitClasses, knowOfTheBodyThatARayComesThrough) {
+  Material glass;
+  glass.transmissionFactor = 1.0f;
+  glass.metallicFactor = glass.perceptualRoughnessFactor = 0.0f;
+  glass.hasVolume = true;
+  Scene scene = spheresOf({glass, classic(IlluminationModel::lambert, 0.7f, 0, 0)});
+  for (ShapeInstance& shape : scene.shapes) shape.worldFromObject[3] = {0, 0, -4, 1};
+  scene.shapes[0].params = glm::vec4(1.2f, 0, 0, 0);
+  scene.atmosphere.fogMode = FogMode::linear;
+  scene.atmosphere.fogEnd = 4.0;
+  RenderSettings settings = queued();
+  const RenderResult with = render(device(), scene, settings);
+  settings.hitQueues = HitQueues::off;
+  expectSameLayers(with.image, render(device(), scene, settings).image);
+}
+
 TEST(HitClasses, pictureOfFewRaysHasNone) {
   const Scene scene = spheresOf(manyKinds());
   RenderSettings settings = queued();
