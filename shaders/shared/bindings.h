@@ -161,13 +161,13 @@ CL_SIZE(RayRecord, 48)
 
 // What comes back along a ray. Three texels; kept only when the plan's surfaces send rays on.
 struct RayNode {
-  vec3 value;         // radiance; once gathered with the children's and times the weight
-  float alpha;        // coverage of what the ray meets
-  vec3 weight;        // share of the value in the parent's
-  float travelled;    // scene units through fog before the ray's origin: of the rays that it goes straight on from
-  uint reflected;     // node of the reflected child, or kNoRayNode
-  uint transmitted;   // node of the refracted or straight-through child, or kNoRayNode
-  float path;         // with mipmaps: length of the light's way from the camera to the ray's origin
+  vec3 value;             // radiance; once gathered with the children's and times the weight
+  float alpha;            // coverage of what the ray meets
+  vec3 weight;            // share of the value in the parent's
+  float travelled;        // scene units through fog before the ray's origin: of the rays that it goes straight on from
+  uint reflected;         // node of the reflected child, or kNoRayNode
+  uint transmitted;       // node of the refracted or straight-through child, or kNoRayNode
+  float path;             // with mipmaps: length of the light's way from the camera to the ray's origin
   uint transmittedCount;  // with dispersion: 1, or 3 nodes from `transmitted` on, for red, green and blue
 };
 CL_SIZE(RayNode, 48)
