@@ -62,8 +62,8 @@ std::vector<std::string> approximationsOf(const Scene& scene, const RenderSettin
   if (const Material* m = first(scene, scatters)) {
     all.push_back(
         s.method == Method::whitted
-            ? fmt::format("material '{}': light within the body is scattered once on its way, not many times{}", m->name,
-                          s.shadows ? "" : "; without shadows it arrives there unweakened")
+            ? fmt::format("material '{}': light within the body is scattered once on its way, not many times{}",
+                          m->name, s.shadows ? "" : "; without shadows it arrives there unweakened")
             : fmt::format("material '{}': raster methods show none of the light that a body scatters within; "
                           "whitted does",
                           m->name));
