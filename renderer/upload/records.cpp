@@ -11,6 +11,12 @@
 namespace crosslight {
 namespace {
 
+// 1 - cos(angle) without cancellation.
+float versineOf(double radians) {
+  const double s = std::sin(0.5 * radians);
+  return static_cast<float>(2.0 * s * s);
+}
+
 void setClassic(const Light& light, const ClassicLight& c, shared::LightRecord& r) {
   r.flags |= shared::kLightClassic;
   r.ambient = c.ambient;
@@ -23,7 +29,8 @@ void setClassic(const Light& light, const ClassicLight& c, shared::LightRecord& 
   }
   r.spotExponent = c.spotExponent;
   constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
-  r.cosOuter = c.spotCutoff >= 180.0f ? -2.0f : static_cast<float>(std::cos(c.spotCutoff * kRadiansPerDegree));
+  constexpr float kNoCone = 3.0f;  // no direction is that far
+  r.outerVersine = c.spotCutoff >= 180.0f ? kNoCone : versineOf(c.spotCutoff * kRadiansPerDegree);
 }
 
 }  // namespace
@@ -39,8 +46,8 @@ std::vector<shared::LightRecord> makeLightRecords(const Scene& scene, const glm:
     r.specular = r.diffuse;
     r.attenuation = {1.0f, 0.0f, 0.0f};
     r.range = light.range.value_or(0.0f);
-    r.cosInner = std::cos(light.innerConeAngle);
-    r.cosOuter = std::cos(light.outerConeAngle);
+    r.innerVersine = versineOf(light.innerConeAngle);
+    r.outerVersine = versineOf(light.outerConeAngle);
     if (light.classic) setClassic(light, *light.classic, r);
     r.areaU = glm::vec3(light.worldU);
     r.areaV = glm::vec3(light.worldV);

@@ -159,8 +159,8 @@ struct LightRecord {
   vec3 specular;
   vec3 attenuation;    // kc, kl, kq of 1 / (kc + kl d + kq d^2); d in scene units
   float range;         // glTF: window ends here; <= 0: unbounded
-  float cosInner;      // spot
-  float cosOuter;      // spot: beyond it nothing
+  float innerVersine;  // spot: 1 - cos(angle), which keeps the digits of narrow cones
+  float outerVersine;  // spot: beyond it nothing
   float spotExponent;  // classic spot: max(-L.D, 0)^exponent
   vec3 areaU;          // half edge of a rectangle, edge of a triangle; areaU x areaV points against `direction`
   vec3 areaV;
