@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/command_line.h"
 #include "app/commands.h"
@@ -45,7 +46,10 @@ std::vector<const study::HardCase*> wantedCases(const Options& o) {
   std::vector<const study::HardCase*> cases = study::casesFor(o.pattern, o.full);
   if (!cases.empty() || !study::uncoveredFor(o.pattern).empty()) return cases;
   std::string ids;
-  for (const study::HardCase& c : study::hardCases()) ids += std::string(ids.empty() ? "" : ", ") + c.id;
+  std::set<std::string> named;  // a case may have several rows
+  for (const study::HardCase& c : study::hardCases()) {
+    if (named.insert(c.id).second) ids += std::string(ids.empty() ? "" : ", ") + c.id;
+  }
   throw UsageError("--case " + o.pattern + ": no case has such an id or name; there are " + ids);
 }
 

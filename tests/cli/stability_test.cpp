@@ -68,7 +68,7 @@ TEST_F(Stability, probesWithoutRunningCases) {
 TEST_F(Stability, refusesWhatIsNotThere) {
   const Outcome unknown = run({"stability", "--case", "Q*"});
   EXPECT_EQ(unknown.exitCode, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("there are R2"));
+  EXPECT_THAT(unknown.err, HasSubstr("there are R1, R2, "));
   write("file", "");
   EXPECT_EQ(run({"stability", "--case", "R17", "-o", "file/folder"}).exitCode, 3);
   EXPECT_EQ(run({"stability", "--case", "R17", "--json", "absent/a.json"}).exitCode, 3);
