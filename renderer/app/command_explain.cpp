@@ -27,10 +27,12 @@ struct Options {
 void run(const Options& o, const CommonOptions& common) {
   checkRecordPlace(o.picture.json);
   const RenderSettings asked = checkedSettings(o.picture);
-  // A driver that finds its code on the disk would hide what compiling costs.
+  // Code that is found on the disk would hide what compiling costs.
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  DeviceChoice choice = o.picture.device;
+  choice.usesPipelineCache = false;
   std::optional<LazyDevice> device;
-  if (!o.explain.quick) device.emplace(o.picture.device);
+  if (!o.explain.quick) device.emplace(choice);
   const std::shared_ptr<const Scene> scene = loadPosed(o.picture);
   RenderRequest request{scene, asked};
   request.settings.camera = cameraOf(*scene, o.picture);

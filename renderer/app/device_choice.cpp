@@ -49,6 +49,7 @@ void addDeviceOptions(CommandLine& line, CLI::App& command, DeviceChoice& choice
 gpu::Device openDevice(const DeviceChoice& choice) {
   gpu::DeviceOptions options;
   options.selector = choice.selector;
+  options.usePipelineCache = choice.usesPipelineCache;
   gpu::Device device = gpu::Device::open(options);
   const gpu::DeviceInfo& info = device.info();
   if (info.isSoftware && choice.required && choice.selector.empty()) {

@@ -14,7 +14,8 @@ class CommandLine;
 
 struct DeviceChoice {
   std::string selector;
-  bool required = false;  // a software driver counts as no device unless the selector names one
+  bool required = false;          // a software driver counts as no device unless the selector names one
+  bool usesPipelineCache = true;  // what earlier runs have left on disk
 };
 
 // --device and --require-device.

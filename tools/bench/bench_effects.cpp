@@ -13,6 +13,7 @@
 #include "app/scene_extras.h"
 #include "bench/bench.h"
 #include "gpu/peak_memory.h"
+#include "measure/statistics.h"
 
 namespace crosslight::bench {
 namespace {
@@ -107,12 +108,6 @@ class Gains {
   std::string leastScene_;
 };
 
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
-
 class MethodCosts {
  public:
   MethodCosts(Bench& bench, gpu::Device& device, Method method) : bench_(bench), device_(device), method_(method) {}
@@ -137,7 +132,7 @@ class MethodCosts {
                                       }},
                                      bench_.rounds);
     bench_.report.compare(prefix + ".specialized", prefix + ".full", rounds, Quantity::time);
-    time_.add(medianOf(rounds.of(prefix + ".full")) / medianOf(rounds.of(prefix + ".specialized")), sceneName);
+    time_.add(median(rounds.of(prefix + ".full")) / median(rounds.of(prefix + ".specialized")), sceneName);
     memory_.add(static_cast<double>(all.deviceBytes) / static_cast<double>(own.deviceBytes), sceneName);
     compileMs_.emplace_back(sceneName, own.compileMs);
     bench_.report.addCheck(
