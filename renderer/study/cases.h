@@ -20,6 +20,7 @@ inline constexpr double kUlp = 0x1p-23;  // of 1
 constexpr double gammaOf(int n) { return n * kU / (1 - n * kU); }
 
 std::vector<HardCase> mathCases();
+std::vector<HardCase> angleCases();
 std::vector<HardCase> opticsCases();
 std::vector<HardCase> modelCases();
 std::vector<HardCase> energyCases();

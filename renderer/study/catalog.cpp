@@ -9,7 +9,7 @@ const std::vector<HardCase>& hardCases() {
     std::vector<HardCase> cases;
     for (const auto& list : {depthCases(), surfaceCases(), textureCases(), pipelineCases(), transformCases(),
                              shadowCases(), lightCases(), modelCases(), energyCases(), opticsCases(), glassCases(),
-                             shapeCases(), torusCases(), meshCases(), treeCases(), mathCases()})
+                             shapeCases(), torusCases(), meshCases(), treeCases(), mathCases(), angleCases()})
       cases.insert(cases.end(), list.begin(), list.end());
     return cases;
   }();
@@ -24,8 +24,6 @@ const std::vector<Uncovered>& uncoveredCases() {
       {"R6", "T-junctions", "no check of meshes looks for vertices on others' edges"},
       {"R15", "seams of cube maps", nullptr},
       {"R19", "what is not a number does not spread", "no pass reads neighboring pixels"},
-      {"I18", "frames about a normal near -z", nullptr},
-      {"I19", "small angles", nullptr},
       {"T9", "parity of crossings", nullptr},
       {"T26", "the terminator of smooth meshes", nullptr},
       {"G1", "furnace", kNoPaths},

@@ -15,10 +15,11 @@ struct ShapeHit {
 
 const ShapeHit kShapeMiss = ShapeHit(false, 0.0, vec3(0.0), vec3(0.0, 1.0, 0.0), vec2(0.0));
 
-// Longitude and latitude as texture coordinates; atan(0, 0) is avoided: it is whatever the device likes.
+// Longitude and latitude as texture coordinates; atan(0, 0) is avoided: it is whatever the device likes. Angles from the
+// pole are told by both legs: acos of the cosine has no digits there.
 vec2 sphericalUv(vec3 p, float radius) {
   float longitude = (p.x == 0.0 && p.z == 0.0) ? 0.0 : atan(p.z, p.x);
-  return vec2(0.5 + longitude / (2.0 * kPi), acos(clamp(p.y / radius, -1.0, 1.0)) / kPi);
+  return vec2(0.5 + longitude / (2.0 * kPi), atan(length(p.xz), p.y) / kPi);
 }
 
 bool inRange(float t, float tMin, float tMax) { return t > tMin && t <= tMax; }

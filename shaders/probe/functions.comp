@@ -7,6 +7,7 @@
 #include "accel/bvh.glsl"
 #include "accel/shape.glsl"
 #include "shade/optics.glsl"
+#include "light/area_face.glsl"
 #include "shade/mirror.glsl"
 
 layout(local_size_x = 64) in;
@@ -86,6 +87,17 @@ ProbeAnswer probe_mirrored(ProbeArguments p) {
     d = mirrorRay(d, n, n);
   }
   return ProbeAnswer(vec4(d, 0.0), vec4(0.0));
+}
+
+// Two directions across the unit vector a.
+ProbeAnswer probe_perpendicular(ProbeArguments p) {
+  vec3 t = anyPerpendicular(p.a.xyz);
+  return ProbeAnswer(vec4(t, 0.0), vec4(cross(p.a.xyz, t), 0.0));
+}
+
+// Texture coordinates of the point a of a sphere of radius a.w.
+ProbeAnswer probe_sphericalPlace(ProbeArguments p) {
+  return ProbeAnswer(vec4(sphericalUv(p.a.xyz, p.a.w), 0.0, 0.0), vec4(0.0));
 }
 
 void main() {

@@ -43,7 +43,9 @@
   X(7, slabs)                 \
   X(8, mesh)                  \
   X(9, samplePlace)           \
-  X(10, mirrored)
+  X(10, mirrored)             \
+  X(11, perpendicular)        \
+  X(12, sphericalPlace)
 
 CL_SHARED_BEGIN
 struct ProbeArguments {
