@@ -77,13 +77,13 @@ void smoke(GltfBuilder& gltf) {
   addSmokyStage(gltf, std::move(smoke));
 }
 
-// Puffs that rise from a pot, each wider and thinner than the one below: a sum of Gaussians.
+// Puffs that rise from a chimney, each wider and thinner than the one below: a sum of Gaussians.
 float plumeDensity(const dvec3& p) {
   constexpr int kPuffs = 14;
   double density = 0.0;
   for (int k = 0; k < kPuffs; ++k) {
     const double height = static_cast<double>(k) / (kPuffs - 1), radius = 0.10 + 0.26 * height;
-    const dvec3 puff(0.35 * height * std::sin(5.0 * height) + 0.12 * std::sin(9.1 * k), 0.75 + 1.75 * height,
+    const dvec3 puff(0.35 * height * std::sin(5.0 * height) + 0.12 * std::sin(9.1 * k), 2.2 + 1.35 * height,
                      0.10 * std::cos(7.3 * k));
     const dvec3 d = (p - puff) / radius;
     density += 0.35 / (0.3 + height) * std::exp(-2.0 * glm::dot(d, d));
@@ -94,7 +94,7 @@ float plumeDensity(const dvec3& p) {
 // The lamp stands behind the smoke, which scatters forwards.
 void smokeGrid(GltfBuilder& gltf) {
   constexpr int kX = 24, kY = 30, kZ = 16;
-  const dvec3 center(0.0, 1.7, 0.0), size(2.4, 2.4, 1.6);
+  const dvec3 center(0.0, 2.95, 0.0), size(2.2, 2.0, 1.6);
   std::vector<float> densities;
   for (int z = 0; z < kZ; ++z) {
     for (int y = 0; y < kY; ++y) {
@@ -105,11 +105,11 @@ void smokeGrid(GltfBuilder& gltf) {
   }
   addFloor(gltf, {0.30, 0.30, 0.32});
   const int clay = gltf.addMaterial(paint("clay", {0.65, 0.28, 0.16}));
-  gltf.addRoot(shapeNode(gltf, "pot", {.kind = ShapeKind::cylinder, .params = {0.42, 0.6, 0.0}, .segments = 40}, clay,
-                         {0.0, 0.3, 0.0}));
-  addPointLight(gltf, "lamp", {1.9, 2.9, -1.7}, {.color = dvec3(15.0, 14.0, 12.0), .attenuation = {0.0, 0.0, 0.5}});
+  gltf.addRoot(shapeNode(gltf, "chimney", {.kind = ShapeKind::cylinder, .params = {0.4, 2.1, 0.0}, .segments = 40},
+                         clay, {0.0, 1.05, 0.0}));
+  addPointLight(gltf, "lamp", {1.9, 3.9, -1.7}, {.color = dvec3(15.0, 14.0, 12.0), .attenuation = {0.0, 0.0, 0.5}});
   addPointLight(gltf, "fill", {-3.0, 3.0, 3.0}, {.color = dvec3(1.6, 2.0, 2.8), .attenuation = {0.0, 0.0, 0.5}});
-  addCamera(gltf, {.eye = {0.0, 1.9, 5.6}, .target = {0.0, 1.35, 0.0}, .yFovDegrees = 32.0});
+  addCamera(gltf, {.eye = {0.0, 2.2, 7.0}, .target = {0.0, 1.85, 0.0}, .yFovDegrees = 32.0});
   Json smoke = smokeOf("box", 0.1, 6.0, 0.45);
   smoke["center"] = listOf(center);
   smoke["size"] = listOf(size);

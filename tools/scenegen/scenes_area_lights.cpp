@@ -73,7 +73,7 @@ void areaGlossy(GltfBuilder& gltf) {
   light["rect"]["aspect"] = 3.0;
   addAreaLight(gltf, std::move(light), {0.0, 2.0, -2.6}, {0.0, 0.4, 0.0});
   addAreaLight(gltf, areaLight("lamp", "disk", {1.0, 0.8, 0.6}, 6.0, 0.9), {-1.8, 2.2, 2.0}, {0.0, 0.3, 0.0});
-  addCamera(gltf, {.eye = {0.0, 2.0, 4.6}, .target = {0.0, 0.15, -0.3}, .yFovDegrees = 43.0});
+  addCamera(gltf, {.eye = {0.0, 2.0, 4.6}, .target = {0.0, 0.35, -0.3}, .yFovDegrees = 65.0});
   setAtmosphere(gltf, 0.0, {0.02, 0.02, 0.03});
 }
 
