@@ -1,6 +1,7 @@
 // Reflection models and material layers under light that has an extent: lights with an area and environments, against
 // the publications' formulas integrated by brute force in double.
 #include "oracle/model_twins.h"
+#include "study/model_probe.h"
 #include "support/area_stage.h"
 
 namespace crosslight::testing {
@@ -19,16 +20,6 @@ struct Case {
   double sky;
 };
 
-Material classic(IlluminationModel model, float kd, float ks, float shininess) {
-  Material m;
-  m.model = model;
-  m.classic.ambientFactor = glm::vec3(0.0f);
-  m.classic.diffuseFactor = glm::vec3(kd);
-  m.classic.specularFactor = glm::vec3(ks);
-  m.classic.shininess = shininess;
-  return m;
-}
-
 Material metallic(float color, float metal, float roughness) {
   Material m;
   m.baseColorFactor = glm::vec4(glm::vec3(color), 1.0f);
@@ -44,18 +35,18 @@ double plastic(const Directions& d, double color, double alpha) {
 }
 
 Case modifiedPhong() {
-  return {"modifiedPhong", classic(IlluminationModel::modifiedPhong, 0.25f, 0.75f, 40),
+  return {"modifiedPhong", study::classicOf(IlluminationModel::modifiedPhong, 0.25f, 0.75f, 40),
           [](const Directions& d) { return 0.25 * std::max(d.NoL, 0.0) + 0.75 * twin::modifiedPhong(d, 40); }, 2e-3, 0};
 }
 
 Case orenNayar() {
-  Material m = classic(IlluminationModel::orenNayar, 1.0f, 0.0f, 1);
+  Material m = study::classicOf(IlluminationModel::orenNayar, 1.0f, 0.0f, 1);
   m.classic.roughness = 0.5f;
   return {"orenNayar", m, [](const Directions& d) { return twin::orenNayar(d, 0.5); }, 4e-3, 1e-3};
 }
 
 Case grooves() {
-  Material m = classic(IlluminationModel::cookTorrance1982, 0.25f, 0.25f, 1);
+  Material m = study::classicOf(IlluminationModel::cookTorrance1982, 0.25f, 0.25f, 1);
   m.classic.roughness = 0.25f;
   return {"cookTorrance1982", m,
           [](const Directions& d) {
